@@ -31,9 +31,9 @@ const MOST_PAGES: u64 = PlayOptions::MOST_PAGES as u64;
 /// address and opens it. The page can read and write only below the current folder, or the file's folder if that is
 /// elsewhere. Everyone who knows the address can use the page. Ctrl-C stops the server.
 ///
-/// With `--export`, it starts no server. It writes one HTML file that a browser opens without nbc and without a network:
-/// the recorded tests and simulations, as `nbc run` does, or with `--live` the whole page with its physics, tests and
-/// editor.
+/// With `--export`, it starts no server. It writes one HTML file that a browser opens without nbc and without a
+/// network: the recorded tests and simulations, as `nbc run` does, or with `--live` the whole page with its physics,
+/// tests and editor.
 #[derive(Args)]
 #[command(after_help = "Examples:
   nbc play

@@ -6,7 +6,5 @@ pub mod fnv;
 pub mod model;
 pub mod source;
 
-/// The name of the program, as results and robot files have it.
 pub const PROGRAM: &str = "nbc";
-/// The version of the program. All its crates have the same.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

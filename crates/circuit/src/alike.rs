@@ -30,8 +30,7 @@ pub enum Likeness {
     Proved,
     /// They are equal in so many random steps.
     Open(usize),
-    /// They are, but differ in a state of the first that may never be reached: the values of its inputs, of its
-    /// registers, and of the outputs of both.
+    /// They may differ, but only in a state of the first that may never be reached.
     Doubtful {
         steps: usize,
         inputs: Vec<bool>,
@@ -101,7 +100,6 @@ impl PortOrder {
         Ok(Self { inputs: places(&inputs, &others)?, outputs: places(&outputs, &other_outputs)? })
     }
 
-    /// The run of the second design with inputs of the first, in the order of the first.
     fn run(&self, two: &Design, inputs: &[Vec<bool>]) -> Option<DesignRun> {
         let mut moved = vec![vec![false; self.inputs.len()]; inputs.len()];
         for (step, moved) in inputs.iter().zip(&mut moved) {
@@ -174,8 +172,7 @@ impl Product {
         Some(product)
     }
 
-    /// Adds the registers of the second. One that clocks others stands for that of the first with its name, if they are
-    /// proved equal.
+    /// A register that clocks others stands for that of the first with its name, if they are proved equal.
     fn add_registers(&mut self, second: &[Register]) {
         let places = |registers: &[Register]| -> BTreeMap<String, usize> {
             registers.iter().enumerate().map(|(at, register)| (register.name.clone(), at)).collect()
@@ -231,7 +228,6 @@ mod tests {
         likeness(&design(one), &design(two), &CancelFlag::default())
     }
 
-    /// A counter of two bits whose second bit is made of `next`, with names of its own.
     fn counter(low: &str, high: &str, next: &str) -> String {
         format!(
             ".model c\n.inputs clk\n.outputs q\n.latch l {low} re clk 0\n.latch h {high} re clk 0\n\
@@ -248,7 +244,6 @@ mod tests {
             panic!("they differ");
         };
         assert_eq!(one.inputs, two.inputs);
-        // Three rises of the clock.
         assert_eq!(
             (one.outputs.last(), two.outputs.last(), one.inputs.len()),
             (Some(&vec![true]), Some(&vec![false]), 6)

@@ -4,14 +4,12 @@ use crate::interned::Interned;
 use crate::network::{Gate, Network};
 use nbc_base::model::Function;
 
-/// A signal and whether it is inverted: 0 and 1 are the constants, and `2 * n` is signal `n`, counted from 1: the
-/// sources, then the gates. `2 * n + 1` is its inverse.
+/// 0 and 1 are the constants, `2 * n` is signal `n`, counted from 1 over sources and gates, `2 * n + 1` its inverse.
 pub type AndLiteral = usize;
 
 /// Gates without duplicates, each after what it reads.
 #[derive(Clone, Debug)]
 pub(crate) struct AndGraph {
-    /// The number of signals that are no gates.
     sources: usize,
     /// The pins of each gate, the larger first.
     pub(crate) ands: Interned<[AndLiteral; 2]>,
@@ -46,7 +44,6 @@ impl AndGraph {
         self.and(a ^ 1, b ^ 1) ^ 1
     }
 
-    /// The first if `choice` is 1, else the second.
     pub(crate) fn choice(&mut self, choice: AndLiteral, then: AndLiteral, otherwise: AndLiteral) -> AndLiteral {
         if then == otherwise {
             return then;
@@ -76,7 +73,6 @@ impl AndGraph {
         }
     }
 
-    /// The gates of a network whose inputs are these literals; returns the literal of each of its outputs.
     pub(crate) fn outputs(&mut self, network: &Network, inputs: &[AndLiteral]) -> Vec<AndLiteral> {
         let inputs: Vec<Option<AndLiteral>> = inputs.iter().copied().map(Some).collect();
         let outputs = self.known_outputs(network, &inputs);

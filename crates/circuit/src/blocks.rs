@@ -4,7 +4,6 @@
 pub struct BlockId(u32);
 
 impl BlockId {
-    /// The circuit itself, around all other blocks.
     pub const TOP: Self = Self(0);
 }
 
@@ -22,7 +21,6 @@ pub struct Blocks {
     of: Vec<BlockId>,
 }
 
-/// Whether the calls of a circuit keep a state: a register or a latch of the prelude.
 pub fn keeps_state(circuit: &str) -> bool {
     ["register", "latch"].contains(&circuit)
 }

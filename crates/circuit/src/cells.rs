@@ -22,16 +22,11 @@ pub struct CellKind {
 }
 
 impl CellKind {
-    /// A kind without glitches whose output is correct `clock` cycles after every switch.
     pub const fn uniform(clock: u32, margin: f64) -> Self {
         Self { cost: 1, clock, settle: [[clock; 8]; 8], margin, radius: 0.0, glitches: false }
     }
 
-    /// Cycles from a change of `pin` (from 0) to `value` until the output stays at `output`; none if that cannot
-    /// follow.
-    ///
-    /// The longest settle time of all transitions to this output, including those that start from it, because the
-    /// output may change in between.
+    /// Cycles from a change of `pin` to `value` until the output stays at `output`; none if that cannot follow.
     pub(crate) fn settle_time(&self, function: Function, pin: usize, value: bool, output: bool) -> Option<u32> {
         let bit = |row: usize| function.input_at(pin, row) == value;
         let ends = |to: usize| bit(to) && function.row(to) == output;
@@ -73,7 +68,6 @@ impl CellLibrary {
         self.kinds.last_key_value().is_some_and(|(function, _)| function.inputs() == 3)
     }
 
-    /// The functions of two inputs with their cells, in order of their bits.
     pub fn kinds(&self) -> impl Iterator<Item = (Function, &CellKind)> {
         self.all().filter(|(function, _)| function.inputs() == 2)
     }
@@ -82,7 +76,6 @@ impl CellLibrary {
         self.kinds.iter().map(|(&function, kind)| (function, kind))
     }
 
-    /// The cells for which a quality is at least `least`.
     pub(crate) fn with(&self, quality: fn(&CellKind) -> f64, least: f64) -> Self {
         self.all().filter(|(_, kind)| quality(kind) >= least).map(|(f, kind)| (f, kind.clone())).collect()
     }
@@ -91,8 +84,7 @@ impl CellLibrary {
         self.reachable() == u16::MAX
     }
 
-    /// The functions, each of which alone would make the library complete; empty if it is complete or one function is
-    /// not enough.
+    /// Each of these alone would make the library complete; empty if it is complete or needs more than one.
     pub fn completions(&self) -> Vec<Function> {
         if self.is_complete() {
             return Vec::new();
@@ -120,13 +112,11 @@ impl CellLibrary {
 
 const START: u16 = 1 << 0b0000 | 1 << 0b1111 | 1 << 0b1100 | 1 << 0b1010;
 
-/// The function that one cell makes of two functions of a set.
 fn compositions(function: Function, set: u16) -> u16 {
     let members = || (0..16u8).filter(move |f| set >> f & 1 == 1);
     members().flat_map(|a| members().map(move |b| (a, b))).fold(0, |made, (a, b)| made | 1 << compose(function, a, b))
 }
 
-/// The bits of `function(a, b)`, for the bits `a` and `b` of two functions of the same inputs.
 pub(crate) fn compose(function: Function, a: u8, b: u8) -> u8 {
     (0..4).fold(0, |bits, i| bits | u8::from(function.output(a >> i & 1 == 1, b >> i & 1 == 1)) << i)
 }

@@ -12,7 +12,6 @@ use crate::netlist::NetGraph;
 
 const NEW: u32 = 0;
 
-/// The state of the search; it visits each node once.
 pub struct Components<'g> {
     graph: &'g NetGraph,
     /// When each node was visited, or [`NEW`].
@@ -80,7 +79,6 @@ impl<'g> Components<'g> {
         self.open.push(node);
     }
 
-    /// The component of a node from which nothing leads further back.
     fn close(&mut self, node: NetId) -> Option<Vec<NetId>> {
         if self.low[node.index()] != self.numbers[node.index()] {
             return None;

@@ -21,12 +21,10 @@ const CYCLES: usize = 64;
 
 const LANES: usize = 64;
 
-/// Words of random states in which the registers of each class agree, before a proof is tried.
 const WORDS: usize = 8;
 
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Removed {
-    /// Registers that keep their start value, and that value.
     pub constant: Vec<(String, bool)>,
     pub equal: Vec<(String, String)>,
     pub unused: Vec<String>,
@@ -38,9 +36,7 @@ impl Removed {
     }
 }
 
-/// The design without the registers that it does not need. A register without a start value starts at 0.
-///
-/// Registers that clock others stay, and so does every register of a design whose logic has feedback.
+/// Registers without a start value start at 0. Those that clock others stay, as do all where the logic has feedback.
 pub fn reduce(design: &Design) -> (Design, Removed) {
     let is_wire = |id| matches!(design.logic.node(id), Node::Wire { .. });
     if design.registers.is_empty() || design.logic.ids().any(is_wire) {
@@ -64,8 +60,7 @@ pub fn reduce(design: &Design) -> (Design, Removed) {
     }
 }
 
-/// Proves a design equal to the one that was read: by its logic, by induction over its states, and by their start.
-/// `removed` says what the registers are that it does without, which the proof checks.
+/// Proves a design equal to the one that was read; the proof checks `removed`, the registers that it does without.
 pub fn prove(read: &Design, made: &Design, removed: &Removed) -> Result<Proof, ProofError> {
     let names = made.registers.iter().enumerate().map(|(at, register)| (register.name.as_str(), at));
     let places: BTreeMap<&str, usize> = names.collect();
@@ -99,7 +94,6 @@ pub(crate) struct RegisterClasses<'d> {
 
 #[derive(Clone, Default)]
 pub(crate) struct ClassLimits {
-    /// The most clauses that the solver learns to compare two registers; without a limit if there is none.
     pub(crate) portion: Option<u64>,
     pub(crate) cancel: CancelFlag,
     pub(crate) follows_clocks: bool,
@@ -139,8 +133,7 @@ impl<'d> RegisterClasses<'d> {
         }
     }
 
-    /// Splits the classes by the next values, and by what forces registers, in some words of inputs and states,
-    /// `word(number, input)`; whether it did.
+    /// Splits the classes in some words of inputs and states, `word(number, input)`; whether it did.
     fn split_by_next(&mut self, words: usize, mut word: impl FnMut(usize, usize) -> u64) -> bool {
         let network = self.assumed();
         let mut values: Vec<Vec<u64>> = vec![Vec::new(); self.leaders.len()];
@@ -160,7 +153,6 @@ impl<'d> RegisterClasses<'d> {
         self.network.input(self.ports[0] + at)
     }
 
-    /// The register that a signal shows, unless it is a constant.
     fn register(&self, leader: Signal) -> Option<usize> {
         (leader as usize).checked_sub(2 + self.ports[0])
     }
@@ -169,7 +161,6 @@ impl<'d> RegisterClasses<'d> {
         self.ports[1] + at
     }
 
-    /// The outputs that say what becomes of a register.
     fn changes(&self, at: usize) -> impl Iterator<Item = usize> {
         std::iter::once(self.next(at)).chain(self.forcing[at].clone())
     }
@@ -206,8 +197,7 @@ impl<'d> RegisterClasses<'d> {
         histories
     }
 
-    /// Puts registers into classes by what distinguishes them. Registers that keep one value in all words need not have
-    /// the same clock; registers that clock others lead.
+    /// Registers that keep one value in all words need not have the same clock; registers that clock others lead.
     fn split(&mut self, keys: impl Fn(usize) -> (Option<Signal>, Vec<u64>)) {
         let clocks: BTreeSet<&str> = self.registers.iter().map(|register| register.clock_name()).collect();
         let mut known: BTreeMap<Key, Signal> = BTreeMap::new();
@@ -247,11 +237,9 @@ impl<'d> RegisterClasses<'d> {
         }
     }
 
-    /// Inputs and states in which registers equal their leaders, but some do not in the next cycle. Registers for which
-    /// this is not known leave their classes; whether there are any.
+    /// Inputs and states after which classes do not agree, and whether registers left theirs because that is open.
     fn counterexamples(&mut self) -> (Vec<Vec<bool>>, bool) {
         let mut network = self.assumed();
-        // What must be equal, with the register for which it must.
         let mut pairs: Vec<(usize, [Signal; 2])> = Vec::new();
         for at in (0..self.leaders.len()).filter(|&at| self.leaders[at] != self.state(at)) {
             match self.register(self.leaders[at]) {
@@ -293,8 +281,7 @@ impl<'d> RegisterClasses<'d> {
         self.leaders[one] == self.leaders[two]
     }
 
-    /// Whether these pairs of outputs are equal wherever registers equal their leaders. If not, the inputs may be in a
-    /// state that is never reached; registers that follow others have their values there.
+    /// Whether these outputs are equal wherever registers equal their leaders, be such a state ever reached or not.
     pub(crate) fn compared(&self, pairs: &[[usize; 2]]) -> Compared {
         let mut network = self.assumed();
         network.outputs = pairs.iter().flatten().map(|&output| network.outputs[output]).collect();
@@ -355,7 +342,6 @@ impl<'d> RegisterClasses<'d> {
     }
 }
 
-/// Removes the registers that no output and no clock depends on, and returns their names.
 fn remove_unused(design: &mut Design) -> Vec<String> {
     let states = design.logic.inputs()[design.inputs()..].to_vec();
     let nexts = design.logic.outputs()[design.outputs()..].to_vec();
@@ -391,7 +377,6 @@ fn keep(design: &mut Design, kept: &[bool]) {
     design.registers.retain(|_| at.next().is_some_and(|at| kept[at]));
 }
 
-/// When a register takes its next value.
 fn event(kind: RegisterKind, clock: &str) -> (u8, &str) {
     (kind as u8, clock)
 }
@@ -405,8 +390,7 @@ mod tests {
     use super::*;
     use nbc_base::model::Function;
 
-    /// A design with a register for each of these next values, functions of the input `d` or of an earlier or later
-    /// register; the output shows the last register.
+    /// A register for each of these next values, functions of `d` or of another register; the output shows the last.
     fn machine(registers: &[(&str, Function, &str)]) -> Design {
         let mut logic = Netlist::new("machine");
         let input = logic.add_input("d");
@@ -433,7 +417,6 @@ mod tests {
 
     #[test]
     fn registers_that_keep_their_value_are_constant() {
-        // Each is 0 while the other is.
         let design = machine(&[("a", Function::AND, "b"), ("b", Function::AND, "a")]);
         let (reduced, removed) = reduce(&design);
         assert_eq!(removed.constant, [("a".to_owned(), false), ("b".to_owned(), false)]);
@@ -446,7 +429,6 @@ mod tests {
         let (reduced, removed) = reduce(&design);
         assert_eq!(removed.equal, [("b".to_owned(), "a".to_owned())]);
         assert!(prove(&design, &reduced, &removed).is_ok());
-        // What a faulty reduction could say.
         let constant = Removed { constant: vec![("b".to_owned(), false)], ..Removed::default() };
         let unused = Removed { unused: vec!["b".to_owned()], ..Removed::default() };
         for wrong in [constant, unused] {

@@ -30,7 +30,7 @@ pub enum EnvironmentFault {
 }
 
 impl Environment {
-    /// An environment before its first step, with the first words of its memories; missing words are 0.
+    /// Missing first words of memories are 0.
     pub fn new(netlist: &Netlist, ports: Vec<MemoryPorts>, contents: Vec<Vec<u128>>) -> Result<Self, EnvironmentFault> {
         let step = Self::step(netlist, &ports)?;
         let memories = ports.iter().zip(contents).map(|(memory, mut words)| {
@@ -52,7 +52,6 @@ impl Environment {
         Ok(Self { run: ClockRun::new(step), ports, memories, inputs, declared })
     }
 
-    /// What an environment does at each edge, without its memories.
     pub(crate) fn step(netlist: &Netlist, ports: &[MemoryPorts]) -> Result<ClockStep, EnvironmentFault> {
         let clocks = ports.iter().flat_map(|memory| memory.writes.iter().map(|[.., clk]| clk.start));
         let drivers: Vec<NetId> = clocks.map(|at| netlist.pins(netlist.outputs()[at])[0]).collect();
@@ -75,7 +74,6 @@ impl Environment {
         Ok(step)
     }
 
-    /// Applies the declared inputs; the outputs follow, with the words that are read.
     pub fn apply(&mut self, inputs: &[bool]) -> Result<(), EnvironmentFault> {
         assert_eq!(inputs.len(), self.declared[0], "a value for each declared input");
         for (own, &value) in self.inputs.iter_mut().zip(inputs) {
@@ -105,7 +103,6 @@ impl Environment {
         changed
     }
 
-    /// The edge of the clock: memories and registers take what they see.
     pub fn advance(&mut self) {
         for (memory, words) in self.ports.iter().zip(&mut self.memories) {
             for (address, word) in written(&self.run, memory) {

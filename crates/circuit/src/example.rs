@@ -48,8 +48,7 @@ pub fn multiplexer_library() -> CellLibrary {
     CellLibrary::uniform(cells.chain(Function::MUX.arrangements()))
 }
 
-/// A network whose gates have the functions of these bits and listen to any earlier signals; the outputs show its last
-/// six signals.
+/// The gates have the functions of these bits and read any earlier signals; the outputs show the last six.
 pub fn network(inputs: usize, gates: &[(u8, u16, u16)]) -> Network {
     let mut network = Network::new(inputs);
     for &(bits, a, b) in gates {

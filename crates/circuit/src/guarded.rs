@@ -69,8 +69,7 @@ impl Guarded {
     }
 }
 
-/// The parts of a loop's memory that are connected among themselves: a state machine has one for each of its registers'
-/// latches.
+/// The connected parts of a loop's memory: a state machine has one for each of its registers' latches.
 pub(crate) fn elements(netlist: &Netlist, core: &[NetId]) -> Vec<Vec<NetId>> {
     let mut rest: BTreeSet<NetId> = core.iter().copied().collect();
     let mut elements = Vec::new();
@@ -88,8 +87,7 @@ pub(crate) fn elements(netlist: &Netlist, core: &[NetId]) -> Vec<Vec<NetId>> {
     elements
 }
 
-/// The nets that close an element: one value of such a net fixes every guard or cell of the element that reads it, and
-/// there are at least two of these.
+/// One value of such a net fixes all guards and cells of the element that read it, which are at least two.
 fn controls_of(netlist: &Netlist, element: &[NetId], guards: &BTreeSet<NetId>) -> Vec<NetId> {
     let mut fixing: BTreeMap<NetId, (usize, [bool; 2])> = BTreeMap::new();
     for &listener in element.iter().chain(guards) {
@@ -107,7 +105,6 @@ fn controls_of(netlist: &Netlist, element: &[NetId], guards: &BTreeSet<NetId>) -
     fixing.into_iter().filter(|(_, (count, fixed))| *count > 1 && fixed.contains(&true)).map(|(net, _)| net).collect()
 }
 
-/// Whether a net with this value fixes a cell's output for all values of its other pin.
 fn fixes(netlist: &Netlist, id: NetId, net: NetId, value: bool) -> bool {
     let Node::Cell(cell) = netlist.node(id) else { return false };
     let function = cell.function;

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-/// Items by number, in the order in which they came.
 #[derive(Clone, Debug)]
 pub struct Interned<T> {
     pub items: Vec<T>,

@@ -5,7 +5,6 @@ use nbc_base::model::Function;
 /// The known value of a bit; `None` if it may be either.
 pub type TernaryBit = Option<bool>;
 
-/// The value of a function where its inputs determine it.
 pub fn answer(function: Function, inputs: &[TernaryBit]) -> TernaryBit {
     assert_eq!(inputs.len(), function.inputs(), "a bit for each input");
     let agrees =

@@ -29,8 +29,7 @@ struct Gate {
 }
 
 impl Logic {
-    /// A netlist before its first cycle. Cells with a start value have it. The others have the values that follow from
-    /// inputs of 0, if these settle.
+    /// Cells without a start value have what follows from inputs of 0, if that settles.
     pub fn new(netlist: &Netlist) -> Self {
         let slots = netlist.graph().node_indices().map(|id| id.index() as u32 + 1).max().unwrap_or(0);
         let mut logic = Self {
@@ -76,7 +75,7 @@ impl Logic {
         self.values[net.index()]
     }
 
-    /// One time step of every cell; whether any output changed.
+    /// Whether any output changed.
     fn step(&mut self) -> bool {
         self.next.clear();
         let value = |slot: u32| self.values[slot as usize];
@@ -89,7 +88,6 @@ impl Logic {
         changed
     }
 
-    /// Holds the inputs, in order of the ports, until nothing changes, and returns the outputs.
     pub fn settle(&mut self, inputs: &[bool]) -> Result<Vec<bool>, Oscillation> {
         assert_eq!(inputs.len(), self.inputs.len(), "a value for each input");
         for (&slot, &value) in self.inputs.iter().zip(inputs) {
@@ -99,8 +97,7 @@ impl Logic {
         Ok(self.outputs())
     }
 
-    /// Steps until nothing changes, or as often as the limit says; `see` is shown the values after each step, but not
-    /// again those of an oscillation that it has seen completely. Their period tells how it ends.
+    /// `see` is shown the values after each step, but not again those of an oscillation that it has seen completely.
     fn run(&mut self, mut see: impl FnMut(&[bool])) -> Result<(), Oscillation> {
         let limit = self.limit();
         let (mut kept, mut kept_at) = (Vec::new(), 0);
@@ -120,8 +117,7 @@ impl Logic {
         Err(Oscillation)
     }
 
-    /// The number of steps after which a circuit of this size has settled, if it ever does. Without loops the longest
-    /// path is the limit; loops that settle do so within a few rounds.
+    /// Without loops the longest path; loops that settle do so within a few rounds.
     fn limit(&self) -> usize {
         16 * self.cells.len() + 16
     }
@@ -130,13 +126,11 @@ impl Logic {
         self.outputs.iter().map(|&slot| self.values[slot as usize]).collect()
     }
 
-    /// For each output, whether it is constant while the inputs are held. A circuit that does not settle may have
-    /// constant outputs.
+    /// Whether each output is constant while the inputs are held, as some may be even if the circuit does not settle.
     pub fn steady_outputs(&mut self) -> Vec<bool> {
         let before = self.outputs();
         let mut steady = vec![true; before.len()];
         let outputs = self.outputs.clone();
-        // Whether it settles does not matter here.
         _ = self.run(|values| {
             for ((steady, &slot), before) in steady.iter_mut().zip(&outputs).zip(&before) {
                 *steady &= values[slot as usize] == *before;
@@ -146,7 +140,6 @@ impl Logic {
     }
 }
 
-/// The slot of the cell, input or constant behind wires.
 fn driver(netlist: &Netlist, id: NetId) -> u32 {
     let mut at = id;
     let mut steps = 0;
@@ -158,7 +151,6 @@ fn driver(netlist: &Netlist, id: NetId) -> u32 {
     at.index() as u32
 }
 
-/// The start value of a cell: its own, or that of a wire it drives.
 fn start(netlist: &Netlist, id: NetId) -> Option<bool> {
     let own = netlist.cell(id).and_then(|cell| cell.start);
     own.or_else(|| {
@@ -180,8 +172,7 @@ pub struct Delayed {
 }
 
 impl Delayed {
-    /// A netlist before its first cycle, in the same state as [`Logic::new`]; `delay` gives the cycles after which each
-    /// cell reacts, at least one.
+    /// In the same state as [`Logic::new`]; `delay` gives the cycles after which each cell reacts, at least one.
     pub fn new(netlist: &Netlist, mut delay: impl FnMut(NetId) -> usize) -> Self {
         let logic = Logic::new(netlist);
         let delays: Vec<usize> = netlist.cells().map(|(id, _)| delay(id)).collect();
@@ -190,7 +181,6 @@ impl Delayed {
         Self { past: std::iter::repeat_n(logic.values.clone(), longest).collect(), logic, delays }
     }
 
-    /// Holds the inputs, in order of the ports, for some cycles, and returns the outputs after them.
     pub fn run(&mut self, inputs: &[bool], cycles: usize) -> Vec<bool> {
         let Logic { inputs: ports, outputs, cells, .. } = &self.logic;
         assert_eq!(inputs.len(), ports.len(), "a value for each input");

@@ -32,10 +32,7 @@ impl Loops {
     }
 
     /// Only the memory elements: of each loop, the cells that drive each other directly (a pair, or a cell that drives
-    /// itself) and the cells that are still on a loop after these are cut. The logic between the registers of a state
-    /// machine is not included.
-    ///
-    /// In [`Loops::order`] nothing waits for a memory element here.
+    /// itself) and the cells that are still on a loop after these are cut. In [`Loops::order`] nothing waits for them.
     pub fn memory(netlist: &Netlist) -> Self {
         let mut loops = Self { cores: Vec::new(), core_of: BTreeMap::new(), order: Vec::new() };
         let mut rest = Components::new(netlist.graph());
@@ -69,7 +66,7 @@ impl Loops {
     }
 }
 
-/// The cells of a strongly connected part that are memory; `rest` has reached no node of it.
+/// `rest` has reached no node of the core.
 fn memory_of(netlist: &Netlist, core: &[NetId], rest: &mut Components) -> Vec<NetId> {
     let inside = |id: &NetId| core.binary_search(id).is_ok();
     let listeners = |id: NetId| netlist.fanout(id).into_iter().map(|(listener, _)| listener);

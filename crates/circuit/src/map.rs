@@ -20,8 +20,7 @@ pub fn map(netlist: &Netlist, library: &CellLibrary) -> Result<Netlist, MapError
     map_with(netlist, library, &MapOptions::default())
 }
 
-/// Maps a netlist onto a library. Memory elements and their guards stay as written, split into cells function by
-/// function; the logic around them is synthesized.
+/// Memory elements and their guards stay, split into cells function by function; the logic around is synthesized.
 pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: &MapOptions) -> Result<Netlist, MapError> {
     let cells = netlist.cells().count();
     if Limit::Cells.permit(cells as u64).is_err() {
@@ -116,7 +115,6 @@ impl<'a> Mapper<'a> {
         Ok(self.mapped)
     }
 
-    /// The logic between ports and kept cells, and the nets of the source that its outputs are.
     fn logic(&self, view: &View) -> (Network, Vec<NetId>) {
         let sinks = self.source.outputs().iter().chain(&self.kept);
         let mut sinks: Vec<_> = sinks.flat_map(|&id| self.source.pins(id)).collect();
@@ -133,7 +131,6 @@ impl<'a> Mapper<'a> {
         self.source.inputs().iter().chain(&self.kept).map(|id| stages[id]).collect()
     }
 
-    /// Adds the cells of a network whose inputs are the ports and the kept nets; returns the nets of its outputs.
     fn copy(&mut self, network: &CellNetwork, blocks: &[BlockId]) -> Vec<NetId> {
         let mut constants = [None; 2];
         let mut nets: Vec<Option<NetId>> = vec![None, None];
@@ -318,7 +315,6 @@ mod tests {
         assert_eq!(mapped.cells().count(), 0);
     }
 
-    /// The functions with these names, with their inputs in any order.
     fn wide(cells: &str) -> CellLibrary {
         CellLibrary::uniform(cells.split(' ').flat_map(|name| Function::parse(name).unwrap().arrangements()))
     }

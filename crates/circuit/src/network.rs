@@ -18,7 +18,7 @@ pub struct Gate {
 /// Gates of at most two inputs, in topological order, between numbered inputs and outputs.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Network {
-    /// The number of inputs; their signals are 2, 3, and so on.
+    /// Their signals are 2, 3, and so on.
     pub inputs: usize,
     pub gates: Vec<Gate>,
     pub outputs: Vec<Signal>,
@@ -41,7 +41,6 @@ impl Network {
         signal
     }
 
-    /// Adds gates for a function of these signals, which may be three, and returns the signal of its output.
     pub fn add_function(&mut self, function: Function, pins: &[Signal]) -> Signal {
         let &[a, b, c] = pins else { return self.add(function, [pins[0], pins[1]]) };
         // If `a` is 0, the function is one of `b` and `c`; if it is 1, another.
@@ -107,13 +106,11 @@ impl Network {
         }
     }
 
-    /// The values of the outputs.
     pub(crate) fn run(&self, inputs: impl IntoIterator<Item = bool>) -> Vec<bool> {
         let values = self.simulate(&inputs.into_iter().map(u64::from).collect::<Vec<u64>>());
         self.outputs.iter().map(|&output| values[output as usize] & 1 == 1).collect()
     }
 
-    /// Adds the gates of another network over these inputs; the signals of its outputs.
     pub(crate) fn include(&mut self, other: &Self, inputs: &[Signal]) -> Vec<Signal> {
         let mut made: Vec<Signal> = [0, 1].into_iter().chain(inputs.iter().copied()).collect();
         for gate in &other.gates {
@@ -122,8 +119,7 @@ impl Network {
         other.outputs.iter().map(|&output| made[output as usize]).collect()
     }
 
-    /// The same network with an inverter for each gate that inverts one signal because its pins are equal or one is a
-    /// constant, if there is a cell for it; likewise with buffers.
+    /// Gates that only invert, by equal pins or a constant, become inverters if there is a cell; likewise buffers.
     pub(crate) fn with_plain_inverters(&self, has_cell: impl Fn(Function) -> bool) -> Self {
         let mut plain = self.clone();
         for gate in &mut plain.gates {
@@ -179,13 +175,11 @@ fn constant(function: Function) -> Signal {
     Signal::from(function == Function::ONE)
 }
 
-/// A function of two inputs with some of them inverted.
 pub(crate) fn inverted(function: Function, inputs: [bool; 2]) -> Function {
     let pins = (0..2).filter(|&pin| inputs[pin]);
     pins.fold(function, Function::with_input_inverted)
 }
 
-/// A two-input function of 64 patterns at a time.
 pub fn word(function: Function, a: u64, b: u64) -> u64 {
     let bits = function.bits();
     let pick = |bit: u8, minterm: u64| if bits >> bit & 1 == 1 { minterm } else { 0 };
@@ -212,8 +206,7 @@ pub(crate) fn counting_word(i: usize, block: usize) -> u64 {
 /// The combinational view of a netlist whose loops are cut open at some nets.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// The gates of a netlist. The inputs are the ports and then the cuts; the outputs are the ports and then the
-    /// drivers of the cuts.
+    /// The inputs are the ports and then the cuts; the outputs are the ports and then the drivers of the cuts.
     pub network: Network,
     /// The signal of each net as its listeners see it: a cut net is an input.
     pub signal: BTreeMap<NetId, Signal>,
@@ -256,7 +249,6 @@ fn add(netlist: &Netlist, network: &mut Network, signal: &BTreeMap<NetId, Signal
     }
 }
 
-/// All nodes, each after the drivers of its pins, ignoring edges that start at cuts.
 fn order(netlist: &Netlist, cuts: &BTreeSet<NetId>) -> Result<Vec<NetId>, NetId> {
     let mut waiting = BTreeMap::new();
     let mut ready = Vec::new();

@@ -11,15 +11,13 @@ pub enum MappingObjective {
     Delay,
     /// The risk of a wrong output: maximizes the smallest noise margin of the robots, then minimizes their number.
     Margin,
-    /// The risk of a wrong output in another world: maximizes the smallest radius of the robots, then minimizes their
-    /// number.
+    /// The risk of a wrong output in another world: as `Margin`, with the radius of the robots.
     Sturdy,
 }
 
 /// How long a search takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Effort {
-    /// Little: for quick looks.
     Fast,
     /// Seconds for circuits of a few hundred cells.
     #[default]

@@ -40,8 +40,7 @@ impl Ternary {
     }
 }
 
-/// The memory elements that one switch of an input may leave in either state, from any stable state; `None` if there
-/// are too many inputs and memory elements to try all states.
+/// From any stable state, by one switch of an input; `None` if there are too many states to try all.
 pub fn races(netlist: &Netlist) -> Option<Vec<Race>> {
     let loops = Loops::memory(netlist);
     let memory = loops.cores().concat();
@@ -94,7 +93,6 @@ fn switch(netlist: &Netlist, loops: &Loops, mut values: Values, input: NetId) ->
     values
 }
 
-/// Updates every net until none changes; a new value is computed from the old one and the response.
 fn settle(netlist: &Netlist, loops: &Loops, values: &mut Values, merge: impl Fn(Ternary, Ternary) -> Ternary) {
     let mut changed = true;
     while changed {
@@ -139,7 +137,6 @@ mod tests {
     use crate::passes::{dissolve_wires, sweep};
     use crate::{example, registers};
 
-    /// A netlist of `d`, `e` and `q`, where `q` is a wire driven by the result of `build` on all three.
     fn with_feedback(build: impl FnOnce(&mut Netlist, [NetId; 3]) -> NetId) -> Netlist {
         let mut netlist = Netlist::new("memory");
         let [d, e] = ["d", "e"].map(|name| netlist.add_input(name));
@@ -152,7 +149,6 @@ mod tests {
         netlist
     }
 
-    /// Compares the races with a line for each: the input, its direction, the memory element.
     fn check(netlist: &Netlist, expected: &[&str]) {
         let races = races(netlist).unwrap();
         let line = |race: &Race| {

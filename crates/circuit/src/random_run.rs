@@ -22,8 +22,7 @@ pub struct DesignRun {
 }
 
 impl DesignRun {
-    /// A random run of at most so many steps. `ports` are the input ports, each a list of its bits. None if the design
-    /// has feedback, or does not settle.
+    /// `ports` are the input ports, each a list of its bits. None if the design has feedback, or does not settle.
     pub(crate) fn random(design: &Design, ports: &[Vec<usize>], steps: usize, seed: u64) -> Option<Self> {
         let machine = Machine::of(design)?;
         let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -47,7 +46,6 @@ impl DesignRun {
         Some(run)
     }
 
-    /// The run of a design with these inputs. None if it has feedback, or does not settle.
     pub(crate) fn with(design: &Design, inputs: Vec<Vec<bool>>) -> Option<Self> {
         let machine = Machine::of(design)?;
         let states = design.registers.iter().map(|register| register.starts_at()).collect();
@@ -93,7 +91,6 @@ impl Habits {
         }
         let is_apart = |at: &usize| self.clocks.contains(at) || self.forcing.contains(at);
         for (port, habit) in ports.iter().zip(&self.words) {
-            // Half of the ports change.
             if port.iter().any(is_apart) || random.random_range(0..2) == 0 {
                 continue;
             }
@@ -118,7 +115,6 @@ struct Machine<'d> {
     /// The input of the network that clocks each register: a port or the value of a register.
     clocks: Vec<usize>,
     clock_inputs: BTreeSet<usize>,
-    /// The ports on which the nets that force registers depend.
     forcing_inputs: BTreeSet<usize>,
     /// For each register, the first of the outputs of the network that force it.
     forced: Vec<usize>,
@@ -169,7 +165,6 @@ impl<'d> Machine<'d> {
         inputs
     }
 
-    /// The start, with inputs at which as few registers as possible are forced.
     fn calm(&self, random: &mut ChaCha8Rng) -> Option<Values> {
         let states: Vec<bool> = self.design.registers.iter().map(|register| register.starts_at()).collect();
         let mut best: Option<(usize, Vec<bool>)> = None;
@@ -202,7 +197,6 @@ impl<'d> Machine<'d> {
         &outputs[self.forced[at]..][..self.design.registers[at].forcing.nets().len()]
     }
 
-    /// The values after the inputs have changed, when nothing changes any more.
     fn after(&self, before: &Values, inputs: Vec<bool>) -> Option<Values> {
         let count = before.states.len();
         let mut clocks: Vec<bool> = (0..count).map(|at| self.clock(at, &before.inputs, &before.states)).collect();
@@ -257,7 +251,6 @@ mod tests {
     use crate::formats::Register;
     use nbc_base::model::Function;
 
-    /// A bit that turns at each edge of its kind, with a reset to 1.
     fn toggle(kind: RegisterKind) -> Design {
         let mut logic = Netlist::new("toggle");
         let [_, reset, state] = ["clk", "r", "q"].map(|name| logic.add_input(name));

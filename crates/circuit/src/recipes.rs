@@ -35,7 +35,6 @@ pub struct Recipes {
 type Path = (u32, u16, Vec<(Step, u8)>);
 
 impl Recipes {
-    /// Searches sets of functions in order of cost until every function that the library can make is found.
     pub fn of(library: &CellLibrary) -> Self {
         let reachable = library.reachable();
         let mut recipes = vec![None; 16];
@@ -87,8 +86,7 @@ fn operands(steps: &[(Step, u8)]) -> Vec<(u8, Operand)> {
     START.into_iter().chain(results).collect()
 }
 
-/// Every cell that adds a new function to a set, with its cost. Of several cells for the same function: the cheapest,
-/// then the function's own cell, then the first.
+/// Of several cells for the same function: the cheapest, then the function's own cell, then the first.
 fn extensions(library: &CellLibrary, set: u16, steps: &[(Step, u8)]) -> Vec<(u32, (Step, u8))> {
     let operands = operands(steps);
     let rank = |cost: u32, step: Step, bits: u8| (cost, step.function.bits() != bits);

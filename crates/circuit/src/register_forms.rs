@@ -18,15 +18,13 @@ use nbc_base::model::Function;
 /// The cells of memory do not glitch: whether those of robots do is for timing to say.
 const KIND: CellKind = CellKind::uniform(1, 1.0);
 
-/// Proves that a netlist stores in every step what it stored before its registers were given another form. `None` if
-/// latches of one of the two are not recognized, such as some whose data depend on what opens them.
+/// `None` if latches of one of the two are not recognized, such as some whose data depend on what opens them.
 pub fn prove_forms(before: &Netlist, after: &Netlist) -> Option<Result<Proof, ProofError>> {
     let made = Bits::of(after).taken(|_| Some(false));
     let names: BTreeSet<&str> = made.registers.iter().map(|one| one.name.as_str()).collect();
     prove(&Bits::of(before).taken(|name| names.contains(name).then_some(false)), &made)
 }
 
-/// Proves that a netlist with a latch or flip-flop of cells for each register of a design stores what they store.
 /// `None` if a register is set or reset without its clock, the logic has feedback, or latches are not recognized.
 pub fn prove_expanded(design: &Design, netlist: &Netlist) -> Option<Result<Proof, ProofError>> {
     let is_forced = design.registers.iter().any(|register| register.forcing != Forcing::Never);
@@ -43,15 +41,13 @@ pub fn prove_expanded(design: &Design, netlist: &Netlist) -> Option<Result<Proof
         return Some(Err(error.into()));
     }
     let mut made = Bits::of(&plain).taken(|name| edges.get(name).copied());
-    // Clocks that are no inputs of the design.
     let clocks = made.logic.inputs()[design.inputs()..made.inputs()].iter().copied();
     let unread: Vec<NetId> = clocks.filter(|&clock| made.logic.fanout(clock).is_empty()).collect();
     unread.into_iter().for_each(|clock| made.logic.remove(clock));
     prove(&read, &made)
 }
 
-/// Proves designs equal whose registers are those of the same name. `None` if one has loops that the other does not
-/// have, or registers.
+/// Registers of the same name correspond. `None` if one has loops or registers that the other does not have.
 fn prove(read: &Design, made: &Design) -> Option<Result<Proof, ProofError>> {
     let (read, made) = (&while_taken(read), &while_taken(made));
     let numbers = made.registers.iter().enumerate().map(|(at, register)| (register.name.as_str(), at));
@@ -63,8 +59,7 @@ fn prove(read: &Design, made: &Design) -> Option<Result<Proof, ProofError>> {
     (!is_open).then_some(proof)
 }
 
-/// The design with the data of each register as they are while it takes them: at other values of its clock they are
-/// what it stores. So data that depend on the clock may differ where nobody sees it.
+/// The data of each register while it takes them; at other values of its clock nobody sees how they differ.
 fn while_taken(design: &Design) -> Design {
     let mut logic = design.logic.clone();
     let states = logic.inputs()[design.inputs()..].to_vec();
@@ -107,7 +102,6 @@ struct Element<'b> {
     shown: (NetId, bool),
     /// What it stores, and whether that is the opposite of the net.
     data: (NetId, bool),
-    /// The net that opens it or is its clock.
     root: NetId,
     kind: RegisterKind,
 }
@@ -120,8 +114,7 @@ impl<'n> Bits<'n> {
         Self { netlist, start: Logic::new(netlist), bits: storage.latches.into_iter().filter_map(bit).collect() }
     }
 
-    /// The design whose registers are the latches for a cell of which `wanted` says something: whether they are the
-    /// second ones of flip-flops. They have the names of these cells.
+    /// `wanted` says of a cell whether its latch is the second of a flip-flop; registers have the names of these cells.
     fn taken(&self, wanted: impl Fn(&str) -> Option<bool>) -> Design {
         let mut named = BTreeMap::new();
         for bit in &self.bits {
@@ -154,7 +147,6 @@ impl<'n> Bits<'n> {
         })
     }
 
-    /// The netlist without these latches, which become registers in order of their names.
     fn without(&self, elements: &BTreeMap<String, Element<'_>>) -> Design {
         let mut logic = self.netlist.clone();
         // What each cell that shows a bit becomes: the bit, or its opposite.
@@ -220,7 +212,6 @@ mod tests {
     use crate::registers::expand;
     use crate::timing::Held;
 
-    /// A mapped circuit, and the same with latches of one cell.
     fn forms(source: &Netlist) -> [Netlist; 2] {
         let mapped = map(source, &multiplexer_library()).unwrap();
         let held = Held::of(&mapped, &multiplexer_library()).unwrap().netlist;

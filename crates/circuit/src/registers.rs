@@ -7,8 +7,6 @@ use crate::formats::{Design, Forcing, Register, RegisterKind};
 use crate::{Cell, NetId, Netlist, Node};
 use nbc_base::model::Function;
 
-/// The circuit of a design with a latch or a flip-flop of NAND cells for each register.
-///
 /// A clock that is not an input of the design becomes an additional input.
 pub fn expand(design: &Design) -> Netlist {
     let mut netlist = Netlist::new(&design.logic.name);
@@ -88,8 +86,7 @@ impl Clocks {
     }
 }
 
-/// A D latch of four NAND cells, transparent while `enable` is 1. The reset branch reads the set branch, so no inverter
-/// races it.
+/// Four NAND cells. The reset branch reads the set branch, so no inverter races it.
 pub fn latch(netlist: &mut Netlist, name: &str, data: NetId, enable: NetId, start: bool) -> NetId {
     let set = netlist.add_gate(Function::NAND, &[data, enable]);
     let reset = netlist.add_gate(Function::NAND, &[set, enable]);
@@ -108,8 +105,7 @@ fn core_cell(netlist: &mut Netlist, name: String, start: bool, pins: [NetId; 2])
     netlist.add_cell(Cell { function: Function::NAND, name: Some(name), start: Some(start), span: None }, &pins)
 }
 
-/// A flip-flop of two latches, which takes `data` when `clock` rises: the first is open while the clock is 0, the
-/// second while it is 1.
+/// Two latches: the first is open while the clock is 0, the second while it is 1.
 pub fn flip_flop(netlist: &mut Netlist, name: &str, data: NetId, clock: NetId, start: bool) -> NetId {
     let low = netlist.add_gate(Function::NOT, &[clock]);
     let held = latch(netlist, &format!("{name}.held"), data, low, start);
@@ -191,8 +187,7 @@ mod tests {
     use crate::Delayed;
     use crate::passes::{dissolve_wires, sweep};
 
-    /// Runs random rows of (data, clock) with random delays from 1 to 3 cycles, many times; `model` gives the expected
-    /// q.
+    /// Random rows of (data, clock) with random delays of 1 to 3 cycles; `model` gives the expected q.
     fn check(
         build: impl Fn(&mut Netlist, NetId, NetId) -> NetId,
         cells: usize,
@@ -240,7 +235,6 @@ mod tests {
         check(|netlist, d, clk| flip_flop(netlist, "q", d, clk, false), 9, model);
     }
 
-    /// Switches one input of a forced register after the other, with random delays from 1 to 3 cycles, many times.
     fn check_forced(forcing: Forcing, kind: RegisterKind, start: bool, cells: usize) {
         let mut logic = Netlist::new("forced");
         let [data, _] = ["d", "clk"].map(|name| logic.add_input(name));

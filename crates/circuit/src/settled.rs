@@ -21,13 +21,11 @@ enum Way {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SettledRow {
     pub outputs: Vec<bool>,
-    /// For each, whether it comes to rest.
     pub rests: Vec<bool>,
     pub is_settled: bool,
 }
 
 impl Settled {
-    /// The most rows that are computed at a time.
     pub const ROWS: usize = u64::BITS as usize;
 
     pub fn new(netlist: &Netlist) -> Self {
@@ -39,7 +37,6 @@ impl Settled {
         })
     }
 
-    /// Holds the inputs of each row until nothing changes, as far as it comes to rest.
     pub fn apply(&mut self, rows: &[&[bool]]) -> Vec<SettledRow> {
         match &mut self.0 {
             Way::Words { network, values } => {
@@ -77,7 +74,6 @@ mod tests {
     use super::*;
     use crate::example::{full_adder, latch};
 
-    /// Rows in which every input changes, more than fit into a word.
     fn rows(inputs: usize) -> Vec<Vec<bool>> {
         (0..150u32).map(|row| (0..inputs).map(|bit| (row * 37 + 11) >> bit & 1 == 1).collect()).collect()
     }

@@ -26,7 +26,6 @@ impl SignalBlocks {
         Self(blocks)
     }
 
-    /// Those of another network, in which the signals have these numbers.
     pub fn renumbered(&self, made: &[Signal], signals: usize) -> Self {
         let mut blocks = vec![None; signals];
         for (block, &signal) in self.0.iter().zip(made) {
@@ -37,7 +36,7 @@ impl SignalBlocks {
         Self(blocks)
     }
 
-    /// The block of each cell of a network that was made from `source`. Its inputs are the `ports` of the source.
+    /// The inputs of `made` are the `ports` of `source`.
     pub fn of_cells(&self, source: &Network, made: &CellNetwork, ports: &[usize]) -> Vec<BlockId> {
         let (known, wanted) = samples(source, made, ports);
         let mut by_values: BTreeMap<&[u64; WORDS], BlockId> = BTreeMap::new();
@@ -62,8 +61,7 @@ impl SignalBlocks {
     }
 }
 
-/// The values of all signals of a network, and of all cells made from it, for the same random inputs; a signal and its
-/// opposite have the same.
+/// For the same random inputs; a signal and its opposite have the same.
 fn samples(source: &Network, made: &CellNetwork, ports: &[usize]) -> (Vec<[u64; WORDS]>, Vec<[u64; WORDS]>) {
     let mut plain = Network::new(made.inputs);
     let mut signals: Vec<Signal> = (0..(2 + made.inputs) as Signal).collect();

@@ -2,10 +2,7 @@
 
 /// Cubes whose sum is 1 wherever `on` is and nowhere that `may` is not. Each cube has a digit `0`, `1` or `-` for each
 /// input, and none is redundant. The tables have an entry for each row in counting order; the first input is the
-/// highest bit.
-///
-/// The recursion of Minato and Morreale: first the rows that one half of the table alone must cover, then the rest with
-/// cubes over both halves.
+/// highest bit. By the recursion of Minato and Morreale.
 pub fn cover(on: &[bool], may: &[bool]) -> Vec<Vec<u8>> {
     assert!(on.len() == may.len() && on.len().is_power_of_two(), "tables of all rows");
     let mut cubes = Vec::new();
@@ -16,7 +13,6 @@ pub fn cover(on: &[bool], may: &[bool]) -> Vec<Vec<u8>> {
     cubes
 }
 
-/// Covers a part of the table, which has the digits `cube`, and returns the rows that are covered.
 fn part(on: &[bool], may: &[bool], cube: &mut Vec<u8>, cubes: &mut Vec<Vec<u8>>) -> Vec<bool> {
     if !on.contains(&true) {
         return vec![false; on.len()];

@@ -83,7 +83,6 @@ pub enum ProofError {
     Different {
         /// The output port, or the net on a loop whose next state differs.
         output: String,
-        /// The inputs and cut nets with their values.
         inputs: Vec<(String, bool)>,
     },
 }

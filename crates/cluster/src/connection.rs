@@ -24,33 +24,23 @@ const STREAM: &str = "nbc-tasks";
 pub const SILENCE: Duration = Duration::from_secs(6);
 /// Tasks of a search that has ended without cleaning up are dropped after this time.
 const MOST_AGE: Duration = Duration::from_secs(60 * 60);
-/// The most time for a reply of the server.
 pub const PATIENCE: Duration = Duration::from_secs(5);
-/// The most time for a reply when a program opens the queue. It is longer, because there is no second attempt, and the
-/// server takes long to create a stream on a busy disk.
+/// Longer than for other replies: there is no second attempt, and a stream takes long to create on a busy disk.
 const OPENING: Duration = Duration::from_secs(30);
-/// The time between attempts while another program creates the stream.
 const PAUSE: Duration = Duration::from_millis(50);
-/// The time between two signs of life that the client asks the server for. It gives a connection up when two are
-/// missing.
+/// The client gives a connection up when two signs of life are missing.
 const PING: Duration = Duration::from_secs(2);
-/// The most tasks that workers have taken and not finished.
 const MOST_TAKEN: i64 = 1_000_000;
 
-/// A NATS server with JetStream, and the files that clients need to connect.
 #[derive(Clone, Debug, Default)]
 pub struct NatsServer {
     /// Its address, such as `nats://localhost:4222` or `tls://nats.example.org`.
     pub address: String,
-    /// The file with the credentials for it.
     pub credentials: Option<PathBuf>,
-    /// The file with the root certificate for the server's, if the system does not trust it.
     pub root_certificate: Option<PathBuf>,
 }
 
-/// A connection, with the threads that serve it.
 pub struct Connection {
-    /// It lives as long as the program.
     pub runtime: &'static Runtime,
     pub client: async_nats::Client,
     pub jetstream: jetstream::Context,
@@ -59,7 +49,7 @@ pub struct Connection {
 }
 
 impl Connection {
-    /// Connects. If the connection breaks later, the client connects again by itself.
+    /// If the connection breaks later, the client connects again by itself.
     pub fn open(server: &NatsServer, name: &str, log: Log) -> Result<Self, Diagnostic> {
         let shown = without_passwords(&server.address);
         let runtime = Builder::new_multi_thread()
@@ -97,18 +87,15 @@ impl Connection {
         Ok(Self { runtime, client, jetstream, server: shown })
     }
 
-    /// Enters the runtime until the guard is dropped. A thread must do so before it uses or drops parts of the client,
-    /// which start asynchronous tasks.
+    /// A thread must enter before it uses or drops parts of the client, which start asynchronous tasks.
     pub fn enter(&self) -> EnterGuard<'static> {
         self.runtime.enter()
     }
 
-    /// Whether the server answers, as far as the client knows.
     pub fn is_open(&self) -> bool {
         self.client.connection_state() == connection::State::Connected
     }
 
-    /// The stream of tasks, which is made if there is none.
     pub async fn stream(jetstream: &jetstream::Context) -> Result<Stream, String> {
         let config = stream::Config {
             name: STREAM.to_owned(),
@@ -129,7 +116,6 @@ impl Connection {
         }
     }
 
-    /// The queue of the tasks for one kind of physics, which is made if there is none.
     pub async fn queue(jetstream: &jetstream::Context, token: &str) -> Result<PullConsumer, String> {
         let stream = Self::stream(jetstream).await?;
         let name = format!("workers-{token}");
@@ -146,7 +132,6 @@ impl Connection {
         stream.get_or_create_consumer(&name, config).await.map_err(|error| error.to_string())
     }
 
-    /// As [`Connection::queue`], for a program that begins.
     pub fn open_queue(&self, token: &str) -> Result<PullConsumer, Diagnostic> {
         let jetstream = jetstream::ContextBuilder::new().timeout(OPENING).build(self.client.clone());
         let queue = self.runtime.block_on(Self::queue(&jetstream, token));
@@ -158,7 +143,6 @@ impl Connection {
     }
 }
 
-/// Tells when the server does not answer, and when it answers again.
 struct Silence {
     server: String,
     log: Log,
@@ -188,7 +172,6 @@ pub fn words(error: impl ToString) -> String {
     error.to_string()
 }
 
-/// Whether a stream cannot be made because another one has its subjects.
 fn has_overlap(error: &CreateStreamError) -> bool {
     let CreateStreamErrorKind::JetStream(error) = error.kind() else { return false };
     error.error_code() == ErrorCode::STREAM_SUBJECT_OVERLAP
@@ -219,7 +202,6 @@ pub fn search_note_subject() -> String {
     format!("nbc.v{VERSION}.search")
 }
 
-/// The subject of the replies to a worker, which say whether its results are accepted.
 pub fn reply_subject(worker: &str) -> String {
     format!("nbc.v{VERSION}.reply.{worker}")
 }
@@ -228,7 +210,6 @@ pub fn random_name() -> String {
     format!("{:08x}", getrandom::u32().unwrap_or_else(|_| std::process::id()))
 }
 
-/// The user and the password in the first of the addresses.
 fn user_and_password(urls: &str) -> Option<(String, String)> {
     let url: ServerAddr = urls.split(',').next()?.parse().ok()?;
     let decoded = |text: &str| percent_decode_str(text).decode_utf8_lossy().into_owned();

@@ -13,7 +13,6 @@ use tokio::time;
 use crate::connection::{Connection, answer_subject};
 use crate::message::{AnswerReply, decode};
 
-/// The time for a reply to one attempt, and between attempts.
 const ATTEMPT: Duration = Duration::from_secs(2);
 /// The number of attempts. A search that does not reply for so long has ended.
 const ATTEMPTS: usize = 30;
@@ -57,7 +56,6 @@ impl Delivery {
         std::iter::from_fn(|| self.open.try_join_next()).flatten().collect()
     }
 
-    /// Waits for the others, at most for some time.
     pub async fn finish(&mut self, most: Duration) -> Vec<DeliveryEnd> {
         let mut ended = Vec::new();
         let end = time::Instant::now() + most;
@@ -68,7 +66,6 @@ impl Delivery {
     }
 }
 
-/// The reply of the search; `None` if there was none to any attempt.
 async fn deliver(
     client: async_nats::Client,
     subject: String,

@@ -27,5 +27,4 @@ pub use listing::{ClusterListing, ClusterWatch};
 pub use queue_executor::{QueueExecutor, QueueOptions};
 pub use worker::{Worker, WorkerOptions};
 
-/// Shows a line of text to the user.
 pub type Log = fn(&str);

@@ -18,17 +18,15 @@ use nbc_session::report::{Align, TextTable};
 
 /// The time in which every worker and every search reports at least once.
 const WATCH: Duration = Duration::from_secs(3);
-/// The time between two checks of the request to stop.
 const GLANCE: Duration = Duration::from_millis(100);
 
-/// The searches and workers that have reported.
 #[derive(Serialize)]
 pub struct ClusterListing {
     searches: Vec<SearchNote>,
     workers: Vec<WorkerNote>,
 }
 
-/// Receives the reports of searches and workers. It must stay on the thread that opened it.
+/// It must stay on the thread that opened it.
 pub struct ClusterWatch {
     searches: Subscriber,
     workers: Subscriber,

@@ -17,43 +17,31 @@ pub struct TaskKey {
     pub index: u32,
 }
 
-/// The report that a worker sends regularly, as `nbc workers` shows it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WorkerNote {
     pub name: String,
-    /// The version of the program.
     pub version: String,
-    /// The hash of its physics, in hexadecimal.
     pub physics: String,
     pub threads: u32,
     pub evaluations: u64,
-    /// In the last seconds.
     pub evaluations_per_second: f64,
-    /// Evaluations that it took over because another worker did not answer.
     pub redelivered: u64,
 }
 
-/// The report that a search sends regularly, as `nbc workers` shows it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SearchNote {
     pub name: String,
-    /// The version of the program.
     pub version: String,
-    /// The hash of its physics, in hexadecimal.
     pub physics: String,
     pub runs: u32,
     pub workers: u32,
     pub evaluations: u64,
-    /// In the last seconds.
     pub evaluations_per_second: f64,
-    /// Evaluations without a result.
     pub waiting: u64,
-    /// Evaluations that were given to a second worker.
     pub redelivered: u64,
     pub refused: u32,
 }
 
-/// The reply to an answer or a note.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum AnswerReply {
     Received,
@@ -76,14 +64,12 @@ pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
 }
 
 impl WorkerNote {
-    /// Reads and checks.
     pub fn decode(bytes: &[u8]) -> Option<Self> {
         decode(bytes).filter(|note: &Self| [&note.name, &note.version, &note.physics].iter().all(|name| is_name(name)))
     }
 }
 
 impl SearchNote {
-    /// Reads and checks.
     pub fn decode(bytes: &[u8]) -> Option<Self> {
         decode(bytes).filter(|note: &Self| [&note.name, &note.version, &note.physics].iter().all(|name| is_name(name)))
     }

@@ -11,10 +11,8 @@ use nbc_swarm::{Task, TaskResult};
 /// The time for which a run without a batch is still in progress: it may be about to hand in the next.
 const BETWEEN: Duration = Duration::from_secs(1);
 
-/// Tasks that are requested together. Their results are passed on when all can be used.
 pub struct BatchRequest {
     pub run: u32,
-    /// Each task, with its place in the list of whoever waits.
     pub tasks: Vec<(usize, Task)>,
     pub reply: Sender<(usize, TaskResult)>,
 }
@@ -28,7 +26,6 @@ pub struct OpenBatches {
 struct Run {
     batches: u32,
     open: u32,
-    /// When it handed in a batch or received results.
     seen: Instant,
 }
 
@@ -39,7 +36,6 @@ struct Waiting {
 }
 
 impl OpenBatches {
-    /// Adds a batch and returns the keys of its tasks.
     pub fn add(&mut self, request: BatchRequest) -> Vec<TaskKey> {
         let BatchRequest { run, tasks, reply } = request;
         let entry = self.runs.entry(run).or_insert_with(|| Run { batches: 0, open: 0, seen: Instant::now() });
@@ -56,8 +52,7 @@ impl OpenBatches {
         self.open.get_mut(&(key.run, key.generation)).map(|waiting| &mut waiting.batch)
     }
 
-    /// Passes on the results of the batch that a key belongs to, if all can be used. Returns the workers that are
-    /// trusted for them.
+    /// Passes on the results of its batch if all can be used. Returns the workers that are trusted for them.
     pub fn pass_on(&mut self, key: TaskKey, is_trusted: impl Fn(&str) -> bool) -> Vec<String> {
         let batch = (key.run, key.generation);
         let Some(Waiting { batch: waiting, places, reply }) = self.open.get(&batch) else { return Vec::new() };
@@ -78,12 +73,10 @@ impl OpenBatches {
         keys.into_iter().flat_map(|key| self.pass_on(key, &is_trusted)).collect()
     }
 
-    /// The results of a worker that were not checked here, at most so many.
     pub fn claims(&self, worker: &str, most: usize) -> Vec<(TaskKey, TaskResult)> {
         self.open.values().flat_map(|waiting| waiting.batch.claims(worker)).take(most).collect()
     }
 
-    /// Drops the unverified results of a worker, and returns their tasks.
     pub fn forget(&mut self, worker: &str) -> Vec<TaskKey> {
         self.open.values_mut().flat_map(|waiting| waiting.batch.forget(worker)).collect()
     }

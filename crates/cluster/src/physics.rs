@@ -9,7 +9,6 @@ use nbc_swarm::evolve::Rivals;
 use nbc_swarm::{EvaluationProtocol, EvaluationTask, evaluate_tasks};
 
 pub const PROGRAM: &str = nbc_base::VERSION;
-/// Env steps of each pattern.
 const STEPS: u32 = 8;
 const BODIES: usize = 2;
 

@@ -25,12 +25,11 @@ use nbc_circuit::CancelFlag;
 use nbc_sim::Simulator;
 use nbc_swarm::{Task, TaskResult};
 
-/// The time between two checks of the request to stop.
 const TURN: Duration = Duration::from_millis(500);
 /// The age of a batch at which the server is asked whether it still has the tasks.
 const OVERDUE: Duration = Duration::from_secs(5);
 
-/// The queue. It must stay on the thread that opened it.
+/// It must stay on the thread that opened it.
 pub struct Queue {
     answers: Subscriber,
     batches: OpenBatches,
@@ -69,8 +68,7 @@ impl Queue {
         })
     }
 
-    /// Sends the requested tasks and passes on their results, until all senders of requests are dropped or `cancel` is
-    /// raised. `note` receives notes on the progress.
+    /// Works until all senders of requests are dropped or `cancel` is raised.
     pub fn work(
         &mut self,
         mut requests: UnboundedReceiver<BatchRequest>,
@@ -103,7 +101,6 @@ impl Queue {
         format!("{}, {waiting} waiting, {refused} refused", self.reports.workers.summary().describe())
     }
 
-    /// Takes requests and messages until a batch is complete or the time is over.
     async fn receive(&mut self, requests: &mut UnboundedReceiver<BatchRequest>) {
         let end = time::Instant::now() + TURN;
         let mut open = self.batches.len();
@@ -128,7 +125,6 @@ impl Queue {
         self.send(keys);
     }
 
-    /// Starts to send those of the tasks that have no result.
     fn send(&mut self, tasks: impl IntoIterator<Item = TaskKey>) {
         let together = self.together();
         for key in tasks {
@@ -201,12 +197,10 @@ impl Queue {
         for worker in check.wrong() {
             self.reject(worker, check.key, "its result differs from that of this machine");
         }
-        // The worker may be trusted now.
         let workers = self.batches.pass_on_all(|worker| self.checker.trusts(worker));
         self.checker.set_used(workers);
     }
 
-    /// Drops what came in the name of a worker with a wrong result of a task, and sends its tasks again.
     fn reject(&mut self, worker: &str, key: TaskKey, reason: &str) {
         // Others of its results tell whether somebody else used its name.
         for (key, claim) in self.batches.claims(worker, self.checker.count_wrong(worker, key, reason)) {
@@ -236,8 +230,7 @@ impl Queue {
     }
 }
 
-/// The sender of an answer: the name in its subject, and the connection to which the reply goes. A sender that uses the
-/// name of another worker has another connection, so it counts as another worker.
+/// The name in the subject of an answer, and the connection for the reply, which no other sender has.
 fn sender(message: &Message) -> String {
     let name = message.subject.rsplit('.').next().unwrap_or_default();
     // The inbox of a connection, without the number of the request. No part of a subject has a space.

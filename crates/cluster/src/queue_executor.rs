@@ -16,7 +16,6 @@ use nbc_circuit::CancelFlag;
 use nbc_sim::Simulator;
 use nbc_swarm::{Executor, Task, TaskResult, perform};
 
-/// Bytes of a message besides its task or result, at most.
 const RESERVE: usize = 1024;
 
 #[derive(Clone, Debug)]
@@ -35,7 +34,6 @@ pub struct QueueExecutor {
 }
 
 impl QueueExecutor {
-    /// Opens the queue. Notes on the progress go to `note`.
     pub fn open(options: QueueOptions, note: impl Fn(String) + Send + 'static) -> Result<Self, Diagnostic> {
         let (requests, requested) = unbounded_channel();
         let (opened, opening) = mpsc::channel();
@@ -43,7 +41,6 @@ impl QueueExecutor {
         let work = move || {
             let QueueOptions { server, trust_workers, cancel, log } = options;
             let mut queue = Queue::open(&server, trust_workers, log)?;
-            // Whoever opens the queue waits for this.
             let _ = opened.send(());
             queue.work(requested, &cancel, note)
         };
@@ -84,8 +81,7 @@ impl Executor for QueueExecutor {
     }
 }
 
-/// The batches of some tasks: all evaluations together, because a generation needs all of them, and each other task
-/// alone.
+/// All evaluations together, because a generation needs all of them, and each other task alone.
 fn batches(tasks: &[Task], places: Vec<usize>) -> Vec<Vec<usize>> {
     let is_evaluation = |&place: &usize| matches!(tasks[place], Task::Evaluation(..));
     let (evaluations, others): (Vec<usize>, Vec<usize>) = places.into_iter().partition(is_evaluation);
@@ -93,7 +89,6 @@ fn batches(tasks: &[Task], places: Vec<usize>) -> Vec<Vec<usize>> {
     together.into_iter().chain(others.into_iter().map(|place| vec![place])).collect()
 }
 
-/// Whether a task and its result fit into messages. Other tasks are done here.
 fn fits(task: &Task) -> bool {
     let (bytes, answer) = match task {
         // The body of a candidate is small.

@@ -13,11 +13,9 @@ const REPORT: Duration = Duration::from_secs(2);
 
 pub struct Reports {
     client: Client,
-    /// The random name of the search.
     search: String,
     physics: PhysicsId,
     pub notes: Subscriber,
-    /// The workers with the physics of the search.
     pub workers: WorkerStatistics,
     reported: Option<Instant>,
 }
@@ -61,8 +59,6 @@ impl Reports {
         Some(Reporter::Unfit { name, reason })
     }
 
-    /// Sends a report if one is due, with these numbers of runs in progress, tasks without a result and refused
-    /// workers.
     pub async fn tell(&mut self, runs: usize, waiting: usize, refused: usize) {
         if self.reported.is_some_and(|reported| reported.elapsed() < REPORT) {
             return;

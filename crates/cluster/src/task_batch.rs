@@ -8,7 +8,6 @@ use crate::checker::is_plausible;
 use crate::message::TaskKey;
 use nbc_swarm::{Task, TaskResult};
 
-/// Tasks that were handed in together, such as the evaluations of a generation.
 pub struct TaskBatch {
     run: u32,
     number: u32,
@@ -26,7 +25,6 @@ struct TakenResult {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Trust {
-    /// As far as its worker can be trusted.
     Claimed,
     Doubted,
     Verified,
@@ -38,7 +36,6 @@ pub enum Verdict {
     Again,
     Late,
     Implausible,
-    /// It differs from the result that was checked here.
     Wrong,
     /// It differs from the first result, which came from this worker. Only doing the task here can decide.
     Differs {
@@ -69,7 +66,7 @@ impl TaskBatch {
         (self.key(key.index as usize) == key).then_some(task)
     }
 
-    /// Takes an answer. The first result counts.
+    /// The first result counts.
     pub fn take(&mut self, worker: &str, answer: &AnswerMessage) -> Verdict {
         let Some(task) = self.task(answer.key) else { return Verdict::Late };
         if !is_plausible(&answer.result, task) {
@@ -88,14 +85,12 @@ impl TaskBatch {
         }
     }
 
-    /// The result of a task is not used until it is verified.
     pub fn doubt(&mut self, key: TaskKey) {
         if let Some(Some(taken)) = self.results.get_mut(key.index as usize) {
             taken.trust = Trust::Doubted;
         }
     }
 
-    /// Replaces the result of a task by that of this machine.
     pub fn verify(&mut self, key: TaskKey, result: TaskResult) {
         if self.task(key).is_some() {
             let taken = TakenResult { result, worker: String::new(), trust: Trust::Verified };
@@ -103,7 +98,6 @@ impl TaskBatch {
         }
     }
 
-    /// The results of a worker that were not checked here.
     pub fn claims(&self, worker: &str) -> impl Iterator<Item = (TaskKey, TaskResult)> {
         self.results.iter().enumerate().filter_map(move |(index, result)| {
             let taken = result.as_ref().filter(|taken| taken.worker == worker && taken.trust == Trust::Claimed)?;
@@ -111,7 +105,6 @@ impl TaskBatch {
         })
     }
 
-    /// Drops the unverified results of a worker, and returns their tasks.
     pub fn forget(&mut self, worker: &str) -> Vec<TaskKey> {
         let is_its = |result: &Option<TakenResult>| {
             result.as_ref().is_some_and(|taken| taken.worker == worker && taken.trust == Trust::Claimed)
@@ -125,7 +118,6 @@ impl TaskBatch {
         self.results.iter().filter(|result| result.is_none()).count()
     }
 
-    /// The results and the workers that are trusted for them, if all can be used.
     pub fn results(&self, is_trusted: impl Fn(&str) -> bool) -> Option<(Vec<TaskResult>, BTreeSet<&str>)> {
         let is_usable = |taken: &&TakenResult| match taken.trust {
             Trust::Claimed => is_trusted(&taken.worker),
@@ -141,7 +133,6 @@ impl TaskBatch {
         })
     }
 
-    /// The tasks without a result, if the batch was handed in so long ago.
     pub fn overdue(&self, age: Duration) -> Vec<TaskKey> {
         let is_late = self.handed_in.elapsed() >= age;
         let missing = (0..self.results.len()).filter(|&index| is_late && self.results[index].is_none());
@@ -171,7 +162,6 @@ mod tests {
         (TaskBatch::new(0, 0, tasks), answers)
     }
 
-    /// A result that could be right.
     fn wrong(answer: &AnswerMessage) -> AnswerMessage {
         let evaluated = answer.result.clone().evaluated();
         let outcome = match evaluated.outcome {

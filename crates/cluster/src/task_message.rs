@@ -7,9 +7,7 @@ use nbc_base::model::{Behavior, PhysicsWorld, SampledWorlds, SearchObjective};
 use nbc_swarm::evolve::validate;
 use nbc_swarm::{EvaluationProtocol, EvaluationTask, ImageSets, Task};
 
-/// The most env steps of one simulation.
 const MOST_STEPS: u64 = 100_000_000;
-/// The most cycles of a swarm.
 const MOST_CYCLES: usize = 100_000;
 /// The longest clock of a gate, in cycles.
 const MOST_CLOCK: u32 = 8;
@@ -30,7 +28,6 @@ impl TaskMessage {
         encode(self)
     }
 
-    /// Reads a task that can be simulated.
     pub fn decode(bytes: &[u8]) -> Option<Self> {
         let message: Self = decode(bytes)?;
         let is_possible = match &message.task {
@@ -85,7 +82,6 @@ pub(super) mod tests {
     use nbc_swarm::evolve::{Candidate, Search};
     use nbc_swarm::{PlainMember, StimulusSource, SwarmTask, evolve_generation};
 
-    /// The evolution of the prelude, which is the paper's.
     pub(crate) fn evolution() -> Evolution {
         let mut session = Session::new(MemoryWorld::default());
         session.update("a.nb", 1, "evolution paper { from: gates }");
@@ -99,7 +95,6 @@ pub(super) mod tests {
         PhysicsWorld { factors, ground, ..PhysicsWorld::default() }
     }
 
-    /// A swarm of two robots that sense each other and two inputs.
     fn swarm() -> SwarmTask {
         let body = Body::parse(&["34", "43"], &Palette::paper()).unwrap();
         let member = |senses: [StimulusSource; 2], start| PlainMember {
@@ -117,7 +112,6 @@ pub(super) mod tests {
         SwarmTask::new(members, world(), inputs, 1)
     }
 
-    /// A task of each kind; the evaluations are those of a generation with a filled archive.
     pub fn tasks() -> &'static [TaskMessage] {
         static TASKS: OnceLock<Vec<TaskMessage>> = OnceLock::new();
         TASKS.get_or_init(make_tasks)

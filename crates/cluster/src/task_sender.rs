@@ -12,7 +12,6 @@ use crate::connection::{Connection, task_subject, task_subjects, words};
 use crate::message::TaskKey;
 use crate::task_message::TaskMessage;
 
-/// The time before another attempt.
 const AGAIN: Duration = Duration::from_secs(1);
 /// The time between two searches for tasks that the server has lost.
 const LOOK: Duration = Duration::from_secs(5);
@@ -26,14 +25,12 @@ const STUCK_IF_GIVEN_OUT: Duration = Duration::from_secs(60);
 pub struct TaskSender {
     jetstream: jetstream::Context,
     handle: tokio::runtime::Handle,
-    /// The part of the subject that names the physics, and the name of the search.
     token: String,
     search: String,
     sending: JoinSet<(TaskKey, Result<(), String>)>,
     kept: BTreeSet<TaskKey>,
     failed: Instant,
     looked: Instant,
-    /// The last fault, so that it is logged once.
     trouble: Option<String>,
     /// The number of tasks that the queue has ever given out, and since when that is so although workers ask for tasks.
     given_out: (u64, Instant),
@@ -68,7 +65,6 @@ impl TaskSender {
         self.sending.spawn_on(async move { (key, publish.await) }, &self.handle);
     }
 
-    /// Waits until a task is sent or not; `None` if there is none on its way.
     pub async fn next(&mut self) -> Option<()> {
         let (key, sent) = self.sending.join_next().await?.expect("sending does not panic");
         match sent {
@@ -82,7 +78,6 @@ impl TaskSender {
         Some(())
     }
 
-    /// Logs a fault, unless it was the last one.
     fn complain(&mut self, fault: String) {
         if self.trouble.as_ref() != Some(&fault) {
             (self.log)(&fault);
@@ -99,7 +94,6 @@ impl TaskSender {
         std::mem::take(&mut self.kept)
     }
 
-    /// Those of some tasks that the server no longer has, if it is time to look.
     pub async fn lost(&mut self, tasks: impl FnOnce() -> Vec<TaskKey>) -> Vec<TaskKey> {
         if self.looked.elapsed() < LOOK {
             return Vec::new();
@@ -125,8 +119,7 @@ impl TaskSender {
         task_subject(&self.token, &self.search, key)
     }
 
-    /// The subjects of this search's tasks that the server has. A queue that would never give some of these tasks to a
-    /// worker is made again.
+    /// The subjects of this search's tasks on the server. A queue that would never give some of them out is made again.
     async fn subjects(&mut self, tasks: &[TaskKey]) -> Result<BTreeSet<String>, String> {
         // The queue may be gone, too. What it has to do is asked first: a task that is done later leaves the stream.
         let queue = Connection::queue(&self.jetstream, &self.token).await?;
@@ -158,8 +151,7 @@ impl TaskSender {
         Ok(there)
     }
 
-    /// Whether the queue has given out nothing for long, although it has tasks and workers ask for them. A server that
-    /// was killed may not find the tasks that its notes name, and then gives out no other, either.
+    /// A server that was killed may not find the tasks that its notes name, and then gives out no other, either.
     fn is_stuck(&mut self, queue: &consumer::Info) -> bool {
         let given_out = queue.delivered.consumer_sequence;
         if given_out != self.given_out.0 || queue.num_waiting == 0 {

@@ -10,7 +10,6 @@ fn unreadable(message: String) -> Diagnostic {
     Diagnostic::without_place(Code::Unreadable, message)
 }
 
-/// A server that cannot be reached, or that refuses the client.
 pub fn no_server(server: &str, reason: &str) -> Diagnostic {
     unreadable(format!("cannot use the NATS server `{server}`: {reason}"))
         .with_help("start one with `nats-server --jetstream --store_dir DIR`; see docs/cluster.md")
@@ -20,14 +19,12 @@ pub fn no_credentials(path: &str, reason: &str) -> Diagnostic {
     unreadable(format!("cannot use the credentials in `{path}`: {reason}"))
 }
 
-/// A server without JetStream, or without the right to use it.
 pub fn no_queue(server: &str, reason: &str) -> Diagnostic {
     let message = format!("the NATS server `{server}` cannot keep a queue: {reason}");
     Diagnostic::without_place(Code::Unwritable, message)
         .with_help("start it with `--jetstream`, on a disk with room, and allow the user JetStream")
 }
 
-/// A name that a worker cannot have, because it is part of a subject.
 pub fn bad_worker_name(name: &str) -> Diagnostic {
     bad(format!("`{name}` cannot be the name of a worker"))
         .with_help("a name has letters, digits, `-` and `_`, at most 100 of them")
@@ -38,7 +35,6 @@ pub fn rejected(name: &str, reason: &str) -> Diagnostic {
         .with_help("use the same build of the program everywhere, and check the memory of this machine")
 }
 
-/// A worker that sent a wrong result after others were used.
 pub fn unsound(worker: &str) -> Diagnostic {
     bad(format!("worker `{worker}` sent a wrong result, and earlier ones of it were used"))
         .with_help("the runs in progress may differ from those of one machine; start them again without it")

@@ -24,12 +24,11 @@ pub struct WorkerOptions {
     pub server: NatsServer,
     /// The name of the worker; without it, that of the machine and a random number.
     pub name: Option<String>,
-    /// Lets the worker finish what it has begun, and end.
     pub cancel: CancelFlag,
     pub log: Log,
 }
 
-/// A worker that is connected to a server. It must stay on the thread that opened it.
+/// It must stay on the thread that opened it.
 pub struct Worker {
     queue: PullConsumer,
     state: WorkerState,
@@ -82,7 +81,6 @@ impl Worker {
     }
 }
 
-/// The name of the machine and a random number.
 fn default_name() -> String {
     let host = fs::read_to_string("/proc/sys/kernel/hostname").or_else(|_| std::env::var("HOSTNAME"));
     let host = host.unwrap_or_else(|_| "worker".to_owned());

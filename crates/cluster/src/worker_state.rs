@@ -32,7 +32,6 @@ pub struct WorkerState {
     cancel: CancelFlag,
     /// The number of answers that searches have rejected. Anybody who can use the server can say so once.
     rejections: AtomicUsize,
-    /// Searches that did not receive an answer, and when that was.
     silent: Mutex<BTreeMap<String, Instant>>,
 }
 
@@ -52,7 +51,6 @@ impl WorkerState {
         self.cancel.is_raised() || self.rejections.load(Ordering::Relaxed) >= MOST_REJECTIONS
     }
 
-    /// Whether tasks of the search are dropped, because it seems to have ended.
     pub fn shuns(&self, search: &str) -> bool {
         let silent = self.silent.lock().unwrap_or_else(PoisonError::into_inner);
         silent.get(search).is_some_and(|since| since.elapsed() < SHUNNED)
@@ -112,7 +110,6 @@ impl WorkerState {
         });
     }
 
-    /// Starts to listen for replies, and logs those of searches that cannot use this worker.
     pub fn listen(&self) {
         let (client, name, log) = (self.connection.client.clone(), self.name.clone(), self.log);
         self.connection.runtime.spawn(async move {

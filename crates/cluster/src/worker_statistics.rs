@@ -6,31 +6,24 @@ use std::time::{Duration, Instant};
 use crate::message::WorkerNote;
 use nbc_base::diag::counted;
 
-/// A worker that has not reported for this time does not count.
 const GONE: Duration = Duration::from_secs(10);
-/// The time over which speed is measured.
 const WINDOW: Duration = Duration::from_secs(10);
-/// The time after which a summary is computed again.
 const FRESH: Duration = Duration::from_millis(200);
 
 #[derive(Default)]
 pub struct WorkerStatistics {
     workers: BTreeMap<String, (WorkerNote, Instant)>,
     taken: u64,
-    /// That number at some times of the last seconds.
     history: VecDeque<(Instant, u64)>,
     summary: Option<(Instant, Summary)>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Summary {
-    /// Workers that have reported lately, and their threads.
     pub workers: usize,
     pub threads: usize,
-    /// Results taken, and results per second in the last seconds.
     pub evaluations: u64,
     pub rate: f64,
-    /// Tasks that were delivered again, as far as workers have reported.
     pub redelivered: u64,
 }
 
@@ -47,7 +40,6 @@ impl WorkerStatistics {
         self.taken += 1;
     }
 
-    /// The numbers, at most a fifth of a second old.
     pub fn summary(&mut self) -> Summary {
         let now = Instant::now();
         if let Some((_, summary)) = self.summary.filter(|(made, _)| now - *made < FRESH) {

@@ -20,20 +20,16 @@ use nbc_base::diag::Diagnostic;
 use nbc_sim::Simulator;
 use nbc_swarm::{Task, perform};
 
-/// The most time for which a thread asks for a task at once.
 const REQUEST: Duration = Duration::from_secs(5);
 const GLANCE: Duration = Duration::from_millis(100);
 const AGAIN: Duration = Duration::from_secs(1);
-/// The most time for the deliveries in progress at the end.
 const FAREWELL: Duration = Duration::from_secs(10);
 
 pub struct WorkerThread<'a> {
     worker: &'a WorkerState,
     queue: PullConsumer,
     delivery: Delivery,
-    /// The number of tasks to take together, as the last search wished.
     together: usize,
-    /// The last fault, so that it is logged once.
     trouble: Option<String>,
 }
 
@@ -76,7 +72,6 @@ impl<'a> WorkerThread<'a> {
         }
     }
 
-    /// Takes waiting tasks, at most as many as should be taken together; waits for one if there is none.
     async fn fetch(&mut self) -> Result<Vec<OpenTask>, String> {
         let mut taken = Vec::new();
         // The connection says that the server does not answer; the client tries again.
@@ -98,7 +93,6 @@ impl<'a> WorkerThread<'a> {
         Ok(taken)
     }
 
-    /// Takes the tasks of a request, until it or this worker ends.
     async fn take(&mut self, mut batch: Batch, taken: &mut Vec<OpenTask>) -> Result<(), String> {
         // A server that dies does not end the request.
         let end = time::Instant::now() + REQUEST + PATIENCE;
@@ -143,7 +137,6 @@ impl<'a> WorkerThread<'a> {
     }
 }
 
-/// Tells the server at regular times that the tasks are in progress.
 async fn hold(ackers: Vec<Arc<Acker>>) {
     loop {
         time::sleep(SILENCE / 3).await;

@@ -25,7 +25,6 @@ impl Bits {
         Self { words, rows }
     }
 
-    /// Clears what is after the last row.
     fn trim(&mut self) {
         if !self.rows.is_multiple_of(64)
             && let Some(last) = self.words.last_mut()
@@ -95,7 +94,6 @@ impl Bits {
         self.with(self, |one, _| !one)
     }
 
-    /// The rows of `picked`, in order.
     pub fn pick(&self, picked: &[usize]) -> Self {
         Self::of(picked.iter().map(|&row| self.get(row)))
     }

@@ -31,10 +31,8 @@ impl fmt::Display for CodeShape {
 
 const MOST_CLASSES: usize = 32;
 
-/// How many divisions of the classes into two are rated.
 const RATED: usize = 96;
 
-/// The tables by which a division is rated.
 const RATING_VOTES: usize = 11;
 
 /// One row of so many rates the divisions; these are learned from the others.
@@ -47,12 +45,10 @@ const CHANGES: usize = 1_500;
 /// The bits in which the words of two classes should differ, so that one wrong bit does no harm.
 const DISTANCE: u32 = 3;
 
-/// What rows say of several output bits that are one number.
 #[derive(Clone, Debug)]
 pub struct Classes {
     pub inputs: Vec<Bits>,
     pub values: Vec<u64>,
-    /// For each row, the place of its number.
     pub of_row: Vec<usize>,
     pub width: usize,
     /// So many rows after each other belong together.
@@ -76,7 +72,6 @@ impl Classes {
         (3..=MOST_CLASSES).contains(&values.len()).then_some(Self { inputs, values, of_row, width, group })
     }
 
-    /// The rows whose class is in a division: a bit for each class.
     fn side(&self, division: u64) -> Bits {
         Bits::of(self.of_row.iter().map(|class| division >> class & 1 == 1))
     }
@@ -96,7 +91,7 @@ pub struct CodeFitting {
 }
 
 impl CodeFitting {
-    /// A fitting that has not begun. The stream of random numbers is that of the seed and the output port.
+    /// The stream of random numbers is that of the seed and the output port.
     pub fn new(shape: CodeShape, classes: &Classes, seed: u64, port: usize) -> Self {
         let graph = GateGraph::new(classes.inputs.len());
         let features = Feature::of_inputs(&graph, &classes.inputs);
@@ -119,8 +114,7 @@ impl CodeFitting {
         self.shape
     }
 
-    /// Does the next portion: the rating of a division, the choice of the code, or a vote. Returns false when all is
-    /// done.
+    /// Rates a division, chooses the code, or learns a vote; false when all is done.
     pub fn advance(&mut self, classes: &Classes, seed: u64, port: usize) -> bool {
         if let Some(&division) = self.divisions.get(self.sides.len()) {
             self.sides.push(rated(classes, &self.features, division));

@@ -39,7 +39,6 @@ impl Examples {
         Self { inputs, outputs, rows: rows.len() }
     }
 
-    /// Some of the rows that say what an output is, as input bits and the output's bit.
     pub fn of_output(&self, output: usize, rows: &[usize]) -> OutputRows {
         let inputs = self.inputs.iter().map(|input| input.pick(rows)).collect();
         OutputRows { inputs, target: self.outputs[output].value.pick(rows) }
@@ -52,7 +51,6 @@ impl Examples {
         self.outputs.iter().zip(found).map(wrong).fold(all, |right, wrong| right.and_not(&wrong))
     }
 
-    /// The most frequent output bits, with the number of their rows.
     pub fn most_frequent(&self) -> (Vec<bool>, usize) {
         let mut counts: BTreeMap<Vec<bool>, usize> = BTreeMap::new();
         for row in 0..self.rows {
@@ -62,7 +60,6 @@ impl Examples {
     }
 }
 
-/// An output bit that is to be learned: input bits and what it is, in the rows that say so.
 #[derive(Clone, Debug)]
 pub struct OutputRows {
     pub inputs: Vec<Bits>,

@@ -13,8 +13,7 @@ pub struct Forest {
     trees: Vec<DecisionTree>,
 }
 
-/// How much less a row weighs after each right vote. All votes are equal, so that a majority counts them (the constant
-/// step of ε-boosting).
+/// How much less a row weighs after each right vote. All votes are equal (the constant step of ε-boosting).
 const STEP: f64 = 0.3;
 
 impl Forest {
@@ -22,7 +21,6 @@ impl Forest {
         Self { growth, margins: vec![0.0; rows], trees: Vec::new() }
     }
 
-    /// Grows a tree more.
     pub fn grow(&mut self, features: &[Feature], target: &Bits) {
         let weights = weights(&self.margins, STEP);
         let tree = DecisionTree::grow(features, target, &weights, self.growth);

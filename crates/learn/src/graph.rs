@@ -48,7 +48,6 @@ impl Not for Literal {
 enum Gate {
     And(Literal, Literal),
     Xor(Literal, Literal),
-    /// The second if the first, else the third.
     Mux(Literal, Literal, Literal),
     Majority(Literal, Literal, Literal),
     /// A function of three nets, none of them inverted: bit `4a + 2b + c` is its value.
@@ -132,7 +131,6 @@ impl GateGraph {
         xor.inverted_if(invert)
     }
 
-    /// `yes` if `select`, else `no`.
     pub fn mux(&mut self, select: Literal, yes: Literal, no: Literal) -> Literal {
         let (select, yes, no) = if select.is_inverted() { (select.not(), no, yes) } else { (select, yes, no) };
         if yes == no || select == Literal::FALSE {
@@ -183,10 +181,8 @@ impl GateGraph {
         }
     }
 
-    /// A function of three nets: bit `4a + 2b + c` of its bits is its value.
     pub fn table(&mut self, pins: [Literal; 3], bits: u8) -> Literal {
         let entry = |row: usize| bits >> row & 1 == 1;
-        // The pins as they are before they are inverted.
         let flip = pins.iter().fold(0, |flip, pin| flip << 1 | usize::from(pin.is_inverted()));
         let plain = (0..8).fold(0, |plain, row| plain | u8::from(entry(row ^ flip)) << row);
         let depends = |place: usize| (0..8).any(|row| entry(row) != entry(row ^ (4 >> place)));
@@ -310,7 +306,6 @@ impl GateGraph {
     }
 }
 
-/// The function of a gate of its pins as they are, before they are inverted.
 fn function(gate: Gate, pins: &[Literal]) -> Function {
     let width = pins.len();
     let bits = (0..1u8 << width).filter(|row| {

@@ -16,7 +16,6 @@ pub enum LearningMethod {
     Constant,
     Parity,
     Count,
-    /// A bit of arithmetic of the inputs in their order.
     Arithmetic,
     Chain,
     /// A multiplexer for each input and value of the inputs before, if all values are there.
@@ -31,7 +30,6 @@ pub enum LearningMethod {
         leaf: usize,
         fringes: usize,
     },
-    /// The majority of small trees, one less than a power of two, perhaps with the features of a tree.
     Forest {
         trees: usize,
         depth: usize,
@@ -56,8 +54,7 @@ impl LearningMethod {
         all
     }
 
-    /// A tree that is smaller than this one, or than all that are tried; `None` if it would not ask anything of so many
-    /// rows.
+    /// A tree smaller than this one, or than all that are tried; `None` if it would ask nothing of so many rows.
     pub fn smaller_tree(self, rows: usize) -> Option<Self> {
         let leaf = if let Self::Tree { leaf, .. } = self { 2 * leaf } else { 2 * MOST_LEAF };
         (2 * leaf <= rows).then_some(Self::Tree { leaf, fringes: 0 })
@@ -81,7 +78,6 @@ const FRINGES: usize = 6;
 
 const MOST_FEATURES: usize = 1_000;
 
-/// The fewest rows on each side of a question of a forest.
 const FOREST_LEAF: f64 = 3.0;
 
 impl fmt::Display for LearningMethod {
@@ -122,7 +118,6 @@ pub struct Fitting {
 pub struct Fitted {
     pub graph: GateGraph,
     pub literal: Literal,
-    /// What it is in words.
     pub what: String,
 }
 

@@ -4,7 +4,6 @@ use crate::arithmetic::{add, count, divide, entry, equal, less, multiply, root, 
 use crate::bits::Bits;
 use crate::graph::{GateGraph, Literal};
 
-/// A net that may be what the rows describe, and what it is in words.
 pub type Guess = (Literal, String);
 
 /// The exclusive or of some inputs, or its inverse, if that is what all rows are.
@@ -166,7 +165,6 @@ fn link(inputs: &[Bits], target: &Bits, rows: &Bits, free: &[usize]) -> Option<(
             let (set_both, clear_two) = (set.count_and(&inputs[two]), clear.count_and(&inputs[two]));
             let ones_both = set.count_and_3(&inputs[two], target);
             let ones_two = clear.count_and_3(&inputs[two], target);
-            // Rows and ones of each value of the two inputs.
             let cells = [
                 [(clear_all - clear_two, clear_ones - ones_two), (clear_two, ones_two)],
                 [(set_all - set_both, set_ones - ones_both), (set_both, ones_both)],

@@ -30,7 +30,6 @@ pub struct Growth {
 pub enum DecisionTree {
     /// An answer, with the weight of the rows that come there.
     Leaf(bool, f64),
-    /// A question: a feature, the tree if it is 1, and the tree if it is 0.
     Split(usize, Box<DecisionTree>, Box<DecisionTree>),
 }
 

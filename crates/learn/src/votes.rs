@@ -21,14 +21,12 @@ struct Vote {
     entries: [bool; 8],
 }
 
-/// Votes that count the same.
 #[derive(Clone, Debug)]
 pub struct Votes {
     margins: Vec<f64>,
     votes: Vec<Vote>,
 }
 
-/// How much less a row weighs after each right vote.
 const STEP: f64 = 0.5;
 
 /// How often the tables of a vote are chosen again, each for the rows in which the other two leave the vote open.
@@ -123,7 +121,6 @@ impl Vote {
         self.entries = sums.map(|sum| sum > 0.0);
     }
 
-    /// Chooses one of the tables again, for the rows in which the vote depends on it, and then the entries.
     fn choose_table(&mut self, at: usize, features: &[Feature], target: &Bits, weights: &[f64]) {
         let answers = self.tables.each_ref().map(|table| table.answers(features));
         let value = |row: usize, own: bool| {

@@ -11,7 +11,6 @@ use nbc_base::source::LineStarts;
 #[derive(Clone, Debug)]
 pub(super) struct Buffer {
     pub(super) uri: Uri,
-    /// The path in the session.
     pub(super) path: String,
     pub(super) version: i32,
     pub(super) text: String,
@@ -70,7 +69,6 @@ impl Buffers {
     }
 }
 
-/// Its path, or the URI of a text that is not in a file.
 fn name(uri: &Uri) -> String {
     uri::path(uri).unwrap_or_else(|| uri.to_string())
 }

@@ -32,7 +32,6 @@ impl Server {
         Ok(Some(found))
     }
 
-    /// The answer is sent when the command ends.
     pub(super) fn execute(&mut self, id: RequestId, asked: lsp::ExecuteCommandParams) -> Option<Response> {
         let (order, checked) = match self.ordered(&asked) {
             Ok(ordered) => ordered,

@@ -39,7 +39,6 @@ pub(super) struct Compilation {
 
 pub(super) enum FigureState<'a> {
     NotYet,
-    /// `None` if it cannot be compiled.
     Done(Option<&'a Figures>),
 }
 
@@ -59,7 +58,6 @@ impl Compiler {
         self.results.1.try_recv().ok()
     }
 
-    /// Starts a job if they are not known.
     pub(super) fn ask(&mut self, checked: &Arc<Checked>, subject: &Subject) -> FigureState<'_> {
         let key = (checked.path.clone(), subject.clone());
         if checked.has_errors() {
@@ -118,7 +116,6 @@ fn is_same(of: &Weak<Checked>, checked: &Arc<Checked>) -> bool {
 }
 
 impl Job {
-    /// If the source has changed, there is no other reference to it.
     fn done(self, session: &Session) -> Compilation {
         let Self { checked, key, cancel } = self;
         // A bug in compiling one circuit must not end whoever does the work.

@@ -28,7 +28,6 @@ pub(super) struct CircuitFigures {
     hold: u32,
     /// The least period of each clock, in cycles.
     clocks: Vec<(String, u32)>,
-    /// Input first.
     path: Vec<String>,
     pub(super) timing: String,
 }

@@ -13,7 +13,6 @@ use nbc_session::Checked;
 pub(super) struct Files<'a> {
     pub(super) checked: &'a Checked,
     pub(super) encoding: Encoding,
-    /// The files that the client may see.
     pub(super) world: &'a dyn SourceWorld,
     pub(super) shell: &'a dyn LanguageShell,
 }
@@ -31,19 +30,16 @@ impl Files<'_> {
         }
     }
 
-    /// The URI of a path, or of a text without a file, whose name is its URI.
     pub(super) fn named(&self, name: &str) -> Uri {
         let is_uri = name.contains("://") || name.starts_with("untitled:");
         if is_uri { Uri(name.to_owned()) } else { uri::uri(self.world, name) }
     }
 
-    /// Writes a text of the program to a file that editors can open. `None` if it cannot be written, or the client does
-    /// not see such files.
+    /// `None` if it cannot be written, or the client does not see such files.
     pub(super) fn readable(&self, name: &str, text: &str) -> Option<Uri> {
         Some(uri::uri(self.world, &self.shell.write_text(name, text)?))
     }
 
-    /// `None` if the file is not one of the prelude.
     pub(super) fn prelude(&self, file: FileId) -> Option<&'static str> {
         let source = self.checked.sources.file(file);
         let known = PRELUDE.into_iter().find(|(name, text)| *name == source.name && *text == source.text);

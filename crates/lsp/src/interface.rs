@@ -34,7 +34,6 @@ impl Interface {
         }
     }
 
-    /// `ripple[n](a[n], b[n]) -> (sum[n])`
     pub(super) fn label(&self) -> String {
         let list = |ports: &[WrittenPort]| ports.iter().map(|port| port.text.as_str()).collect::<Vec<_>>().join(", ");
         format!("{}({}) -> ({})", self.head(), list(&self.inputs), list(&self.outputs))
@@ -56,7 +55,6 @@ impl Interface {
     }
 }
 
-/// The places of words in a list that begins at `start`.
 fn places<'t>(start: usize, words: impl Iterator<Item = &'t str>) -> Vec<Range<usize>> {
     let place = |at: &mut usize, word: &str| {
         let start = *at;

@@ -25,7 +25,6 @@ pub(super) fn of(files: &Files<'_>, file: FileId) -> Vec<DocumentLink> {
 
 fn link(files: &Files<'_>, path: &str, place: Span) -> Option<DocumentLink> {
     let path = beside(&files.checked.sources.file(place.file).name, path);
-    // Without the quotes.
     let inner = Span { start: place.start + 1, end: place.end - 1, ..place };
     files.world.kind(&path).map(|_| DocumentLink {
         range: files.range(inner),

@@ -74,7 +74,6 @@ impl Server {
         closed.filter(|path| !names.contains(&self.world.identity(path))).chain(open.iter().cloned()).collect()
     }
 
-    /// A file that is not open is read again if it has changed.
     fn as_it_is(&mut self, path: &str) -> Arc<Checked> {
         let checked = self.session.checked(path);
         let known = checked.file.map(|file| checked.sources.file(file).text.as_str());

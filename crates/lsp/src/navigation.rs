@@ -24,7 +24,6 @@ pub(super) fn highlights(files: &Files<'_>, found: NameUse) -> Vec<DocumentHighl
     same.map(highlight).collect()
 }
 
-/// `home` and `declared` are the file and the place of the declaration.
 pub(super) fn uses(files: &Files<'_>, home: &Uri, declared: Span, with_declaration: bool) -> Vec<Location> {
     let own = files.checked.sources.iter().filter(|source| files.uri(source.id) == *home);
     let declared = own.map(|source| Span { file: source.id, ..declared });

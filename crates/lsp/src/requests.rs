@@ -77,7 +77,6 @@ impl Server {
         self.answer_later::<R>(request, respond).expect("it was answered")
     }
 
-    /// The handler returns `None` if the answer comes later.
     fn answer_later<R: lsp::Request>(
         &mut self,
         request: Request,

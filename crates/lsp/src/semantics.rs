@@ -71,7 +71,6 @@ pub(super) fn of(files: &Files<'_>, file: FileId, part: std::ops::Range<usize>) 
     SemanticTokens { result_id: None, data }
 }
 
-/// `next` is the text of the token after it.
 fn meaning(
     files: &Files<'_>,
     file: FileId,

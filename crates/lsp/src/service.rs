@@ -32,7 +32,6 @@ use nbc_session::{Checked, Session};
 pub struct LanguageService {
     shell: Arc<dyn LanguageShell>,
     outbox: (Sender<Message>, Receiver<Message>),
-    /// Once the client has sent `initialize`.
     server: Option<Server>,
 }
 
@@ -56,8 +55,7 @@ impl LanguageService {
         }
     }
 
-    /// Takes finished work, answers hovers that have waited, and publishes diagnostics. Call it after all waiting
-    /// messages.
+    /// Takes finished work, answers hovers that have waited, and publishes diagnostics. Call it after all messages.
     pub fn advance(&mut self, now: Duration) {
         if let Some(server) = &mut self.server {
             server.now = now;
@@ -113,13 +111,11 @@ pub(super) struct Server {
     pub(super) settings: Settings,
     pub(super) workspace: Workspace,
     pub(super) abilities: Abilities,
-    /// Whether lenses or hints lack figures that are being compiled.
     pub(super) is_outdated: bool,
     asked: i32,
     pub(super) compiler: Compiler,
     pub(super) waiting: Vec<WaitingHover>,
     pub(super) runs: Runs,
-    /// For each open text, what was last published, and about which files.
     published: BTreeMap<String, (Arc<Checked>, BTreeSet<String>)>,
 }
 
@@ -216,7 +212,6 @@ impl Server {
         }
     }
 
-    /// The answer is ignored.
     pub(super) fn ask<R: lsp::Request>(&mut self, parameters: R::Params) {
         self.asked += 1;
         let method = R::METHOD.to_string();
@@ -331,7 +326,6 @@ impl Server {
         self.compiler.cancel_stale();
     }
 
-    /// `None` if the text is not open.
     pub(super) fn checked(&mut self, uri: &Uri) -> Option<Arc<Checked>> {
         let path = self.buffers.get(uri)?.path.clone();
         Some(self.session.checked(&path))
@@ -363,7 +357,6 @@ mod tests {
     use super::*;
     use crate::shell::LanguageWork;
 
-    /// Work waits until the test does it.
     #[derive(Default)]
     struct Bare {
         work: Mutex<Vec<LanguageWork>>,

@@ -29,8 +29,7 @@ impl Default for HintSettings {
     }
 }
 
-/// Clients that show the source of Markdown, in which a picture would be pages of digits. Some versions do not give
-/// their name.
+/// Clients that show the source of Markdown, in which a picture would be pages of digits.
 const WITHOUT_PICTURES: [&str; 5] = ["neovim", "vim", "helix", "emacs", "kate"];
 
 impl Settings {

@@ -5,7 +5,6 @@ use nbc_base::source::SharedWorld;
 pub type LanguageWork = Box<dyn FnOnce() + Send>;
 
 pub trait LanguageShell: Send + Sync {
-    /// The files that the client sees.
     fn world(&self) -> SharedWorld;
 
     /// In order, also below the folders.
@@ -20,8 +19,7 @@ pub trait LanguageShell: Send + Sync {
     /// Work calls this to have its progress reported.
     fn wake(&self);
 
-    /// Writes a text of the program to a file that the client can open. Returns its path; `None` if it cannot be
-    /// written, or the client would not see it.
+    /// Writes a file that the client can open; `None` if it cannot be written, or the client would not see it.
     fn write_text(&self, name: &str, text: &str) -> Option<String>;
 
     /// Whether the client sees the files of [`LanguageShell::write_result`].
@@ -31,7 +29,6 @@ pub trait LanguageShell: Send + Sync {
     fn write_result(&self, folder: &str, name: &str, text: &str) -> Result<String, String>;
 }
 
-/// How serving a client ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ServerEnd {
     /// The client asked the server to shut down, or vanished.

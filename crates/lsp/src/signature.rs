@@ -13,7 +13,6 @@ struct Call<'t> {
     circuit: &'t str,
     /// In brackets are parameters, else operands.
     in_brackets: bool,
-    /// The commas before the place.
     at: usize,
 }
 
@@ -70,7 +69,6 @@ fn call<'t>(text: &'t str, tokens: &[Token], offset: usize) -> Option<Call<'t>> 
     None
 }
 
-/// The name before a bracket, perhaps with parameters between.
 fn callee<'t>(text: &'t str, before: &[Token]) -> Option<&'t str> {
     let last = before.last()?;
     let name = match &text[last.range.clone()] {

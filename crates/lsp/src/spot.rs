@@ -33,7 +33,6 @@ impl<'a> Spot<'a> {
         declarations.iter().find(|declaration| self.is_in(declaration.span))
     }
 
-    /// Whether a span covers the place, or ends there.
     pub(super) fn is_in(&self, span: Span) -> bool {
         span.file == self.file && (span.start as usize..=span.end as usize).contains(&self.offset)
     }

@@ -9,7 +9,6 @@ use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_perc
 /// All characters but those that are frequent in paths.
 const ESCAPED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'/').remove(b'-').remove(b'.').remove(b'_').remove(b'~');
 
-/// `None` unless the URI is of a file.
 pub(super) fn path(uri: &Uri) -> Option<String> {
     let path = uri.as_ref().strip_prefix("file://")?;
     let path = &path[path.find('/')?..];

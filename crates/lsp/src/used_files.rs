@@ -7,11 +7,9 @@ use nbc_base::source::SourceWorld;
 use nbc_circuit::rows::RowFormat;
 use nbc_lang::check::{beside, is_usable};
 
-/// By identities.
 #[derive(Default)]
 pub(super) struct UsedFiles {
     texts: BTreeMap<String, String>,
-    /// The sources that name each file.
     users: BTreeMap<String, BTreeSet<String>>,
 }
 
@@ -45,7 +43,6 @@ impl UsedFiles {
         having.map(|(identity, _)| identity.clone()).collect()
     }
 
-    /// Also through others.
     pub(super) fn users(&self, files: impl IntoIterator<Item = String>) -> BTreeSet<String> {
         let mut waiting: Vec<String> = files.into_iter().collect();
         let mut found = BTreeSet::new();
@@ -71,7 +68,6 @@ mod tests {
 
     use super::*;
 
-    /// A folder, and the paths that were read from it.
     #[derive(Clone)]
     struct Watched(FolderWorld, Arc<Mutex<Vec<String>>>);
 

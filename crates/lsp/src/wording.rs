@@ -4,14 +4,12 @@ use lsp_server::{ErrorCode, RequestId, Response};
 
 use nbc_base::diag::{Code, Diagnostic};
 
-/// The client breaks the protocol.
 pub(super) fn protocol(reason: &str) -> Diagnostic {
     let message = format!("the client does not speak the Language Server Protocol: {reason}");
     Diagnostic::without_place(Code::Unreadable, message)
         .with_help("editors start `nbc lsp` themselves: see docs/editors.md")
 }
 
-/// The refusal of a request.
 #[derive(Debug)]
 pub(super) struct RequestError {
     code: ErrorCode,
@@ -28,7 +26,6 @@ fn refused(code: ErrorCode, message: impl Into<String>) -> RequestError {
     RequestError { code, message: message.into() }
 }
 
-/// A request that fails for a reason that is already in words.
 pub(super) fn failed(message: impl Into<String>) -> RequestError {
     refused(ErrorCode::RequestFailed, message)
 }
@@ -99,7 +96,6 @@ pub(super) fn command_arguments() -> RequestError {
     invalid_parameters("expected an object with the `uri` of an open text")
 }
 
-/// The client does not see the folder of the results.
 pub(super) fn no_place() -> RequestError {
     invalid_parameters("commands write their results outside of the folder of this client")
 }

@@ -11,7 +11,6 @@ use std::time::Duration;
 
 /// The most connections that carry requests. Sockets of pages are counted apart.
 const MOST: usize = 128;
-/// The time between two attempts while the system gives no more connections.
 const BREATH: Duration = Duration::from_millis(50);
 
 /// A connection, which several threads may share: each write is done as a whole.
@@ -34,12 +33,10 @@ impl SharedStream {
         &self.0.stream
     }
 
-    /// From now on it is a socket of a page.
     pub(super) fn becomes_socket(&self) {
         self.0.counts.store(false, Ordering::Relaxed);
     }
 
-    /// Ends all reading and writing.
     pub(super) fn close(&self) {
         self.0.counts.store(false, Ordering::Relaxed);
         let _ = self.0.stream.shutdown(Shutdown::Both);
@@ -63,8 +60,7 @@ impl Write for SharedStream {
     }
 }
 
-/// Calls `answer` for each connection, in a thread of its own, until a connection comes after the stop. Then all are
-/// closed.
+/// Answers each connection in a thread of its own, until one comes after the stop.
 pub(super) fn serve(
     listener: &TcpListener,
     is_stopped: &AtomicBool,

@@ -70,7 +70,6 @@ impl PageFolder for DiskFolder {
     }
 }
 
-/// Why nothing can be written at a place that was writable a moment ago.
 fn words(error: FileError) -> String {
     match error {
         FileError::Io(reason) => reason,

@@ -14,22 +14,18 @@ use crate::connections::SharedStream;
 
 /// The time by which the head of a request must be complete.
 pub(super) const PATIENCE: Duration = Duration::from_secs(10);
-/// The most bytes of a head.
 const MOST_HEAD: usize = 16 << 10;
 /// What is read of a sender that still sends while it should read its answer.
 const MOST_REST: usize = 1 << 20;
 
-/// An answer with its bytes.
 pub(super) type HttpAnswer = Response<Vec<u8>>;
 
-/// An answer without bytes.
 pub(super) fn status(status: StatusCode) -> HttpAnswer {
     let mut answer = HttpAnswer::default();
     *answer.status_mut() = status;
     answer
 }
 
-/// An answer of this type.
 pub(super) fn content(kind: &'static str, bytes: impl Into<Vec<u8>>) -> HttpAnswer {
     let mut answer = HttpAnswer::new(bytes.into());
     answer.headers_mut().insert(header::CONTENT_TYPE, HeaderValue::from_static(kind));
@@ -56,7 +52,6 @@ pub(super) fn read(wire: &SharedStream, patience: Duration) -> Result<(Request, 
     }
 }
 
-/// Writes an answer, after which the connection ends.
 pub(super) fn write(mut wire: SharedStream, mut answer: HttpAnswer) {
     let length = HeaderValue::from(answer.body().len());
     answer.headers_mut().insert(header::CONTENT_LENGTH, length);

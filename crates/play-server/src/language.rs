@@ -14,12 +14,10 @@ use crate::served::Served;
 use crate::socket::{WAITING, pump};
 use nbc_play::Line;
 
-/// Messages that may wait in the form in which the server takes them, which is much larger than their texts, and
-/// answers that may.
+/// Messages that may wait in the server's form, which is much larger than their texts.
 const READ: usize = 2;
 const ANSWERS: usize = 16;
 
-/// Serves one page until it is gone.
 pub(super) fn serve(served: &Arc<Served>, wire: SharedStream, rest: Vec<u8>) {
     let (requests, waiting): (_, Receiver<Utf8Bytes>) = bounded(WAITING);
     let (post, outgoing, _) = post();

@@ -33,7 +33,6 @@ fn files(folder: &Path) -> io::Result<Vec<(String, io::Result<String>)>> {
     Ok(files.into_iter().map(|file| (file.to_string_lossy().into_owned(), text_of(&file))).collect())
 }
 
-/// The text of a file, or the beginning of one that is too large.
 fn text_of(path: &Path) -> io::Result<String> {
     let mut bytes = Vec::new();
     let most = LessonFiles::MOST_BYTES as u64;

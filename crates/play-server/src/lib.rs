@@ -40,17 +40,14 @@ use token::random_token;
 use wording::missing;
 
 const LOOK: Duration = Duration::from_millis(100);
-/// The start and the end of the name of the file that a browser opens. With a file, the token is not in the arguments
-/// of the browser, which other users can list.
+/// The name of the file that a browser opens: other users can list a browser's arguments, so the token is not there.
 const REDIRECT: (&str, &str) = ("open-", ".html");
 
 #[derive(Clone, Debug, Default)]
 pub struct PlayOptions {
-    /// The program to open first. The page can read and write only below the current folder, or the file's folder if
-    /// that is elsewhere.
+    /// The page can read and write only below the current folder, or this file's folder if that is elsewhere.
     pub file: Option<PathBuf>,
     pub making: CompileOptions,
-    /// Such as `127.0.0.1`.
     pub host: String,
     /// 0 is any free one.
     pub port: u16,
@@ -61,7 +58,6 @@ pub struct PlayOptions {
     /// One source after the other; the lessons of the program if there is none.
     pub lessons: Vec<LessonSource>,
     pub class: bool,
-    /// The address of a public page, to which the page makes links.
     pub public_page: Option<String>,
     /// At most [`PlayOptions::MOST_PAGES`]; 16 by default.
     pub pages: Option<usize>,
@@ -114,7 +110,6 @@ impl PlayServer {
         self.served.address()
     }
 
-    /// The address for other computers, if they can reach the server.
     pub fn address_elsewhere(&self) -> Option<String> {
         self.served.address_elsewhere()
     }
@@ -149,7 +144,6 @@ impl PlayServer {
     }
 }
 
-/// The address at which this computer reaches one of its own.
 fn reachable(address: SocketAddr) -> SocketAddr {
     let ip = match address.ip() {
         IpAddr::V4(ip) if ip.is_unspecified() => Ipv4Addr::LOCALHOST.into(),
@@ -159,10 +153,8 @@ fn reachable(address: SocketAddr) -> SocketAddr {
     SocketAddr::new(ip, address.port())
 }
 
-/// Serves a page that sends these texts, each of which should be a request, and waits for each answer. The fuzzer calls
-/// this, because it needs no socket.
+/// Serves a page that sends these requests and waits for each answer; for the fuzzer, without a socket.
 pub fn serve_texts(folder: &Path, texts: &[&str]) {
-    /// The time for a long request, after which it is stopped.
     const PATIENCE: Duration = Duration::from_millis(250);
     let world = FolderWorld::new(folder).expect("there is such a folder");
     let site = PlaySite {

@@ -12,7 +12,6 @@ use crate::served::Served;
 use crate::socket::{WAITING, pump};
 use nbc_play::Visit;
 
-/// Serves one page until it is gone.
 pub(super) fn serve(served: &Arc<Served>, wire: SharedStream, rest: Vec<u8>) {
     let (requests, waiting) = bounded(WAITING);
     let (line, outgoing, woken) = post();

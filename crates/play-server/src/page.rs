@@ -27,7 +27,6 @@ pub(super) struct Parts {
 }
 
 pub(super) struct PagePart {
-    /// The last part of its address.
     name: String,
     kind: &'static str,
     text: Cow<'static, str>,
@@ -70,7 +69,6 @@ impl Parts {
         Self { html: PagePart::new(String::new(), "text/html; charset=utf-8", html.into()), script, style }
     }
 
-    /// The script or the style of that name.
     pub(super) fn part(&self, name: &str, request: &HeaderMap) -> HttpAnswer {
         let part = [&self.script, &self.style].into_iter().find(|part| part.name == name);
         let Some(part) = part else { return status(StatusCode::NOT_FOUND) };

@@ -8,18 +8,15 @@ use tungstenite::Message;
 
 use nbc_play::Line;
 
-/// The most texts that wait, and their bytes; one text alone may be longer. A thread that adds more waits until the
-/// page has received some.
+/// Texts that wait, and their bytes; one text alone may be longer. A thread that adds more waits.
 const ROOM: usize = 256;
 const MOST_BYTES: usize = 4 << 20;
 
-/// The end that takes messages.
 pub(super) struct Post {
     queue: Arc<Queue>,
     wake: Sender<()>,
 }
 
-/// The end from which a socket reads messages.
 pub(super) struct Outgoing(Arc<Queue>);
 
 #[derive(Default)]
@@ -33,7 +30,6 @@ struct Waiting {
     texts: VecDeque<String>,
     bytes: usize,
     frame: Option<Vec<u8>>,
-    /// Whether no more messages come, or nobody reads them.
     is_ended: bool,
 }
 
@@ -42,7 +38,6 @@ impl Queue {
         self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Waits as long as a condition holds.
     fn wait(&self, is_early: impl Fn(&Waiting) -> bool) -> MutexGuard<'_, Waiting> {
         let is_early = |waiting: &mut Waiting| is_early(waiting);
         self.changed.wait_while(self.lock(), is_early).unwrap_or_else(PoisonError::into_inner)

@@ -26,7 +26,6 @@ pub(super) struct Served {
     pub(super) port: u16,
     pub(super) page: Page,
     pub(super) taught: Option<Taught>,
-    /// The sockets for which there is room, and those that are open.
     pub(super) most_sockets: usize,
     pub(super) sockets: AtomicUsize,
     /// The bytes of all messages that wait to be handled.
@@ -96,7 +95,6 @@ impl Served {
         format!("http://{host}:{}/{token}/", self.port)
     }
 
-    /// The address that stands for all of this computer, if the server listens there.
     fn everywhere(&self) -> Option<IpAddr> {
         self.host.parse().ok().filter(IpAddr::is_unspecified)
     }
@@ -105,7 +103,6 @@ impl Served {
         self.sockets.load(Ordering::Relaxed) + SOCKETS_OF_PAGE > self.most_sockets
     }
 
-    /// Serves a socket, unless there are too many.
     pub(super) fn with_place(&self, serve: impl FnOnce()) -> bool {
         let has_place = self.sockets.fetch_add(1, Ordering::Relaxed) < self.most_sockets;
         if has_place {
@@ -123,9 +120,8 @@ impl Served {
         self.taught.as_ref().filter(|taught| is_same(token, &taught.token)).map(|taught| &*taught.class)
     }
 
-    /// Whether a request comes from this server's own page: its `Host` is an address of this server, which the name of
-    /// another site that points to this computer is not, and its `Origin`, if it has one, is the same. Neither is there
-    /// twice.
+    /// Whether a request comes from this server's own page: its only `Host` is an address of this server (a name of
+    /// another site that points to this computer is not), and its only `Origin`, if any, is the same.
     pub(super) fn trusts(&self, headers: &HeaderMap) -> bool {
         let all = |name| headers.get_all(name).iter().map(|value| value.to_str().unwrap_or("")).collect::<Vec<_>>();
         // Of several values, a program before this one may have looked at another.

@@ -11,19 +11,16 @@ use crate::http::{self, HttpAnswer, PATIENCE, content, status};
 use crate::served::Served;
 use crate::{language, live, teacher};
 
-/// The content security policy: a page may load and connect to this server only.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: \
                       blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'; \
                       frame-ancestors 'none'";
 
-/// The page that is sent while too many pages are open. It reloads itself, because a page that was just closed may
-/// still be counted.
+/// It reloads itself, because a page that was just closed may still be counted.
 const FULL: &str = "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
                     <meta http-equiv=\"refresh\" content=\"5\">\n<title>nbc is full</title>\n\
                     <h1>This server has no room for another page</h1>\n\
                     <p>Close a page of it that nobody uses. This one tries again every five seconds.</p>\n";
 
-/// Answers the request of a connection; serves it to its end if it becomes a socket of a page.
 pub(super) fn answer(served: &Arc<Served>, wire: SharedStream) {
     // Small messages go out at once.
     let _ = wire.stream().set_nodelay(true);
@@ -72,7 +69,6 @@ fn take(served: &Served, number: &str, name: &str) -> Option<HttpAnswer> {
     Some(answer)
 }
 
-/// An answer with the headers that keep a page safe.
 fn secured(mut answer: HttpAnswer) -> HttpAnswer {
     let headers = answer.headers_mut();
     for (name, value) in [
@@ -90,7 +86,6 @@ fn secured(mut answer: HttpAnswer) -> HttpAnswer {
     answer
 }
 
-/// Opens a web socket, unless there are too many, and serves it.
 fn socket(
     served: &Arc<Served>,
     request: &Request,

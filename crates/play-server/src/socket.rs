@@ -26,8 +26,7 @@ const MOST_BYTES: usize = 4 << 20;
 const MOST_IN_ALL: usize = 32 << 20;
 const LOOK: Duration = Duration::from_millis(20);
 
-/// The messages of a page that wait to be handled. While there are too many, the socket is not read, so further
-/// messages stay on the page's computer.
+/// While too many messages wait, the socket is not read, so further ones stay on the page's computer.
 struct Backlog<'a> {
     sizes: VecDeque<usize>,
     bytes: usize,
@@ -65,8 +64,7 @@ impl Drop for Backlog<'_> {
     }
 }
 
-/// Passes texts of a page to `requests` and sends it the messages of `outgoing`, until it is gone. `rest` is what came
-/// after its request.
+/// `rest` is what came after the page's request.
 pub(super) fn pump(
     wire: SharedStream,
     rest: Vec<u8>,
@@ -97,7 +95,6 @@ pub(super) fn pump(
     });
 }
 
-/// Reads texts until the page is gone. While too many wait, the others stay on the page's computer.
 fn read(socket: &mut WebSocket<SharedStream>, requests: &Sender<Utf8Bytes>, all: &AtomicUsize) {
     let mut allowance = Allowance::new(Instant::now());
     let mut backlog = Backlog::new(all);
@@ -115,7 +112,6 @@ fn read(socket: &mut WebSocket<SharedStream>, requests: &Sender<Utf8Bytes>, all:
     }
 }
 
-/// The number of messages that a page may still send, which grows with time.
 struct Allowance {
     left: f64,
     at: Instant,
@@ -134,7 +130,6 @@ impl Allowance {
     }
 }
 
-/// The text of the next message; `None` when the page is gone, broke the protocol, or sends too much.
 fn receive(socket: &mut WebSocket<SharedStream>, allowance: &mut Allowance) -> Option<Utf8Bytes> {
     loop {
         let message = socket.read().ok()?;

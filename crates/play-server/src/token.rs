@@ -5,7 +5,6 @@ use nbc_base::diag::Diagnostic;
 
 const TOKEN: usize = 16;
 
-/// Whether a text can be the secret part of an address.
 pub fn is_token(text: &str) -> bool {
     text.len() >= 16 && text.bytes().all(|byte| byte.is_ascii_alphanumeric())
 }

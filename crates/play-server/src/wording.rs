@@ -14,7 +14,6 @@ pub(super) fn missing(path: &Path, error: &io::Error) -> Diagnostic {
     Diagnostic::without_place(Code::Unreadable, format!("cannot read `{}`: {}", path.display(), io_words(error)))
 }
 
-/// The system does not provide something, such as threads.
 pub(super) fn system(reason: &str) -> Diagnostic {
     Diagnostic::without_place(Code::Unreadable, format!("cannot start the server: {reason}"))
 }

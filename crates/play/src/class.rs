@@ -117,13 +117,12 @@ impl Membership {
         }
     }
 
-    /// Where the learner saves what is at `path`: in the folder of a class, each learner has files of their own.
     pub(super) fn own_path(&self, path: &str) -> String {
         let stem = path.strip_suffix(".nb").unwrap_or(path);
         format!("{}{}.nb", stem.strip_suffix(&self.ending).unwrap_or(stem), self.ending)
     }
 
-    /// Notes where the learner is. A name that no lesson can have counts as no lesson.
+    /// A name that no lesson can have counts as no lesson.
     pub(super) fn progress(&self, place: Option<ClassPlace>, finished: u32, now: Duration) {
         let is_name = |name: &str| name.len() <= LESSON && !name.contains(is_hidden);
         let place = place.filter(|place| is_name(&place.lesson));

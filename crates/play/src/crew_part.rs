@@ -47,7 +47,6 @@ impl CrewResult {
     }
 }
 
-/// Parts handed to workers, as their owner sees them.
 #[derive(Debug)]
 pub struct GivenParts {
     results: Mutex<Vec<Option<CrewResult>>>,

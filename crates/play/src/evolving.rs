@@ -17,13 +17,11 @@ use nbc_swarm::evolve::{Elite, NicheKey, Scores};
 const SIDES: std::ops::RangeInclusive<usize> = 2..=10;
 const MOST_GENERATIONS: u32 = 1000;
 
-/// The fewest bodies that are worth sending to workers.
 const LEAST_BODIES: usize = 2;
 
 pub(super) struct SharedSearch {
     search: BodySearch,
     shell: Arc<dyn Shell>,
-    /// A generation of which workers still try bodies.
     begun: Option<BegunGeneration>,
 }
 
@@ -46,7 +44,6 @@ impl SharedSearch {
         Ok(Self { search, shell, begun: None })
     }
 
-    /// Does a generation, or a part of it, and reports the niches that have changed.
     pub(super) fn advance(&mut self, job: &mut Job) -> Result<PortionEnd, Refused> {
         job.check()?;
         let Some((bodies, found)) = self.generation(job) else { return Ok(PortionEnd::Waits) };
@@ -63,7 +60,6 @@ impl SharedSearch {
         Ok(PortionEnd::Done(Some(RequestResult::Evolve(end))))
     }
 
-    /// The bodies of a generation and their scores; `None` while workers still try some.
     fn generation(&mut self, job: &Job) -> Option<(Vec<Body>, Vec<Option<Scores>>)> {
         let size = self.shell.crew().map_or(0, Crew::size);
         // Results of workers that have left will not come.

@@ -52,7 +52,6 @@ impl SwarmHistory {
         self.marks[0].0
     }
 
-    /// The earliest cycle that can be shown: the start, or the first one that can be simulated again.
     pub(super) fn earliest(&self) -> u32 {
         if self.first() == 0 { 0 } else { self.first() + 1 }
     }
@@ -66,7 +65,6 @@ impl SwarmHistory {
         (self.first() + skipped + 1, self.log.range(skipped as usize..))
     }
 
-    /// The input bits of the cycles after `from` up to `to`.
     pub(super) fn inputs(&self, from: u32, to: u32) -> Vec<Vec<bool>> {
         let range = (from - self.first()) as usize..(to - self.first()) as usize;
         self.log.range(range).map(|cycle| cycle.inputs.clone()).collect()
@@ -79,8 +77,7 @@ impl SwarmHistory {
         (*at, snapshot)
     }
 
-    /// Records the last cycle of a swarm that has done `cycle` cycles and whose trace contains only the last one. It
-    /// replaces the records from this cycle on.
+    /// Records the only cycle of the swarm's trace, in place of all records from `cycle` on.
     pub(super) fn push(&mut self, cycle: u32, logged: LoggedCycle, swarm: &LiveSwarm) {
         self.log.truncate((cycle - 1 - self.first()) as usize);
         self.marks.retain(|(at, _)| *at < cycle);

@@ -52,7 +52,6 @@ pub(super) struct Job {
 
 pub(super) enum PortionEnd {
     More,
-    /// There will be more to do when workers have finished their parts.
     Waits,
     /// There is no answer if somebody else will give it.
     Done(Option<RequestResult>),
@@ -60,7 +59,6 @@ pub(super) enum PortionEnd {
 
 pub(super) type JobEnd = Result<Option<RequestResult>, Refused>;
 
-/// Does a portion of a long request.
 pub(super) type JobWork = Box<dyn FnMut(&mut Job) -> Result<PortionEnd, Refused> + Send>;
 
 pub(super) fn once(work: impl FnOnce(&mut Job) -> JobEnd + Send + 'static) -> JobWork {
@@ -76,7 +74,6 @@ impl Jobs {
         Self { running: Arc::default(), making, outbox }
     }
 
-    /// Returns the flag that stops the request, if it could be started.
     pub(super) fn start(
         &self,
         shell: &dyn Shell,
@@ -155,12 +152,10 @@ impl Job {
         CompileOptions { cancel: self.stop.clone(), ..self.making.clone() }
     }
 
-    /// Must be called now and then, so that the request can be stopped.
     pub(super) fn check(&self) -> Result<(), Refused> {
         if self.stop.is_raised() { Err(self.reason(Refused::Cancelled)) } else { Ok(()) }
     }
 
-    /// The reason for a refusal, or [`Refused::TimedOut`] for work that was stopped because it took too long.
     fn reason(&self, refused: Refused) -> Refused {
         match refused {
             Refused::Cancelled if self.is_late.load(Ordering::Relaxed) => Refused::TimedOut { seconds: TIME.as_secs() },

@@ -32,7 +32,6 @@ struct LiveSources<'a> {
     files: Vec<(&'a str, &'a str)>,
 }
 
-/// `template` with all files that the circuit is made of. The warnings of its swarm come with it.
 pub fn live_page(
     template: &str,
     world: SharedWorld,
@@ -66,7 +65,6 @@ pub fn live_page(
     Ok((page, again.fail(compiled.warnings.clone())))
 }
 
-/// A path as it is from a folder; the path itself if it leads elsewhere.
 fn within<'a>(folder: &str, path: &'a str) -> &'a str {
     let inside = path.strip_prefix(folder).filter(|_| !folder.is_empty());
     inside.and_then(|rest| rest.strip_prefix('/')).unwrap_or(path)

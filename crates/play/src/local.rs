@@ -22,8 +22,7 @@ pub struct MemoryFolder {
 #[derive(Default)]
 struct Files {
     world: MemoryWorld,
-    /// The sizes in bytes of the files and the hashes of their texts, which make their stamps: a page that returns
-    /// later can tell from a stamp whether its file has changed.
+    /// Sizes in bytes and hashes of texts, the stamps by which a returning page sees whether a file has changed.
     known: BTreeMap<String, (usize, u64)>,
     written: Vec<String>,
 }
@@ -41,7 +40,6 @@ impl MemoryFolder {
         files.world.remove(&identity(path));
     }
 
-    /// A file that a page has written since the last call, and its text.
     pub fn take_written(&self) -> Option<(String, String)> {
         let mut files = lock(&self.files);
         let path = files.written.pop()?;
@@ -213,7 +211,6 @@ impl LocalShell {
         lock(&self.work).waiting = 0;
     }
 
-    /// Does a portion of one piece of work. Several take turns.
     pub fn advance(&self) {
         let next = lock(&self.work).queue.pop_front();
         let Some(mut portions) = next else { return };
@@ -233,7 +230,6 @@ impl LocalShell {
         &self.crew
     }
 
-    /// The oldest file that was kept and not yet taken.
     pub fn take_kept(&self) -> Option<KeptFile> {
         lock(&self.kept).1.pop_front()
     }

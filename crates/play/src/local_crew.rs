@@ -22,7 +22,6 @@ struct State {
 }
 
 impl State {
-    /// Where the result of a part is awaited, and its place there.
     fn home(&self, number: usize) -> Option<(Arc<GivenParts>, usize)> {
         let around = |(first, count, _): &&(usize, usize, _)| (*first..first + count).contains(&number);
         let (first, _, given) = self.given.iter().find(around)?;
@@ -31,12 +30,11 @@ impl State {
 }
 
 impl LocalCrew {
-    /// Sets the number of workers. With none, missing results will not come.
+    /// With no workers, missing results will not come.
     pub fn set_size(&self, size: usize) {
         lock(&self.state).size = size;
     }
 
-    /// The next unassigned part, with its number.
     pub fn next_part(&self) -> Option<(usize, CrewPart)> {
         let state = &mut *lock(&self.state);
         loop {
@@ -47,7 +45,6 @@ impl LocalCrew {
         }
     }
 
-    /// Takes a finished part.
     pub fn receive(&self, number: usize, result: CrewResult) {
         let state = &mut *lock(&self.state);
         if let Some((given, place)) = state.home(number) {

@@ -9,12 +9,10 @@ use crate::refusal::Refused;
 pub trait Line: Send + Sync {
     fn text(&self, text: String);
 
-    /// Sends a frame, replacing one that still waits.
     fn frame(&self, frame: Vec<u8>);
 
     fn has_room(&self) -> bool;
 
-    /// Removes the frame that waits. Returns whether there was one.
     fn remove_frame(&self) -> bool;
 
     /// Called when work has ended, so that the visit of this page is soon advanced.

@@ -15,13 +15,11 @@ use nbc_session::Session;
 
 const EXAMPLES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/circuits");
 
-/// A file that an example needs in a folder beside it, such as the words of a memory.
 pub(super) fn beside_example(path: &str) -> Option<&'static str> {
     let file = EXAMPLES.get_file(path).filter(|_| path.contains('/'))?;
     file.contents_utf8()
 }
 
-/// The files that a page has read, with their stamps at that time. A stamp changes with its file.
 pub(super) struct PageFiles {
     folder: Arc<dyn PageFolder>,
     known: BTreeMap<String, Option<String>>,
@@ -96,12 +94,10 @@ impl PageFiles {
     }
 }
 
-/// Whether the page makes a program of that file.
 pub(super) fn is_circuit(path: &str) -> bool {
     CircuitSource::of_path(path).is_some()
 }
 
-/// A program beside a circuit file of another tool, with a swarm for each of its circuits. It has no file yet.
 pub(super) fn program_around(files: &dyn PageFolder, session: &mut Session, path: &str) -> Result<FileText, Refused> {
     let (folder, name) = path.rsplit_once('/').map_or(("", path), |(folder, name)| (folder, name));
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);

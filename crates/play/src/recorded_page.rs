@@ -8,12 +8,10 @@ use nbc_session::{Checked, Choice, RunList, RunReport};
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExportedPage {
     pub html: String,
-    /// The circuit and the robots of the last swarm.
     pub circuit: String,
     pub robots: usize,
 }
 
-/// The chosen tests and simulations; fails if there are none.
 pub fn recorded_runs<'a>(checked: &'a Checked, choice: &Choice) -> Result<RunList<'a>, Diagnostics> {
     let list = RunList::chosen(checked, None, choice)?.in_physics();
     if list.is_empty() {

@@ -26,7 +26,6 @@ const GROUND_LEFT: f64 = 64.0;
 const PACE_CYCLES: usize = 64;
 const PORTION: usize = 8;
 
-/// A swarm that runs through the first cycles of its script before it is shown.
 pub(super) struct LoadingSwarm {
     running: RunningSwarm,
     cycles: u32,
@@ -88,7 +87,6 @@ pub(super) struct RunningSwarm {
     history: SwarmHistory,
     start: SwarmSnapshot,
     inputs: Vec<bool>,
-    /// The input bits of the first cycles, until somebody sets inputs.
     script: Vec<Vec<bool>>,
     /// An input bit that changes by itself, the cycles from change to change, and the cycle of the last one.
     clock: Option<(usize, u32, u32)>,
@@ -202,8 +200,7 @@ impl RunningSwarm {
         self.pace.as_ref().is_some_and(|pace| pace.next <= now)
     }
 
-    /// Simulates the next cycle, and sets the time of the one after it, unless workers still simulate. Returns the
-    /// reason if the swarm cannot continue.
+    /// Simulates the next cycle unless workers still do. Returns the reason if the swarm cannot continue.
     fn go_on(&mut self, now: Duration) -> Option<String> {
         let Poll::Ready(fault) = self.cycle() else { return None };
         let fault = fault.or_else(|| self.ground_ends());
@@ -226,7 +223,6 @@ impl RunningSwarm {
         None
     }
 
-    /// Simulates a cycle, or a part of it. Returns the reason if a robot failed, so that there is no such cycle.
     fn cycle(&mut self) -> Poll<Option<String>> {
         if !self.cycles.waits() {
             self.set_next_inputs();
@@ -235,7 +231,6 @@ impl RunningSwarm {
         step.map(|step| self.note(step.err()))
     }
 
-    /// Sets the inputs that nobody sets: those of the script, and the one that changes by itself.
     fn set_next_inputs(&mut self) {
         let now = self.now();
         if let Some(bits) = self.script.get(now as usize) {
@@ -249,7 +244,6 @@ impl RunningSwarm {
         }
     }
 
-    /// Notes a simulated cycle, or returns the reason why there is no such cycle.
     fn note(&mut self, fault: Option<RobotFault>) -> Option<String> {
         self.is_new = true;
         if let Some(fault) = fault {
@@ -308,7 +302,6 @@ impl RunningSwarm {
         Ok(())
     }
 
-    /// Sets the inputs, except one that changes by itself.
     fn set_inputs(&mut self, bits: Vec<bool>) {
         let kept = self.clock.map(|(bit, ..)| (bit, self.inputs[bit]));
         self.inputs = bits;
@@ -364,14 +357,12 @@ impl RunningSwarm {
         Ok(())
     }
 
-    /// The last `cycles` cycles and those before them up to a snapshot.
     fn excerpt(&self, cycles: u32) -> Excerpt {
         let now = self.now();
         let (from, start) = self.history.mark(now.saturating_sub(cycles));
         Excerpt { compiled: self.compiled.clone(), start: start.clone(), inputs: self.history.inputs(from, now) }
     }
 
-    /// Notes that the page will not get the newest frame.
     fn take_back(&mut self) {
         self.sent = self.sent.min(self.sent_before);
         self.is_new = true;

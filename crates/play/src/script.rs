@@ -12,13 +12,11 @@ const MOST_ROWS: usize = 4096;
 #[derive(Default)]
 pub(super) struct GivenInputs {
     pub(super) inputs: Vec<Vec<bool>>,
-    /// The cycles that are simulated before the swarm is shown.
     pub(super) before: usize,
     pub(super) shown: Option<ShownScript>,
 }
 
-/// A test by its index, or the last one, in a swarm and a world, up to the end of a row. Rows count from 1, and 0 is
-/// the start.
+/// A test by its index, or the last one, up to the end of a row. Rows count from 1, and 0 is the start.
 pub(super) struct TestMoment<'a> {
     pub(super) test: Option<usize>,
     pub(super) swarm: Option<&'a str>,

@@ -10,7 +10,6 @@ use nbc_session::CycleRunner;
 use nbc_sim::Simulator;
 use nbc_swarm::{Assembly, BegunCycle, LiveSwarm, PartStates, RobotFault};
 
-/// The fewest robots that are worth sending to workers.
 const LEAST_ROBOTS: usize = 4;
 
 pub(super) struct SharedCycle {
@@ -24,8 +23,7 @@ impl SharedCycle {
         parts(crew.size(), robots) > 1
     }
 
-    /// Begins a cycle of a swarm that was made of an assembly for `cycles`, gives its parts to a crew, and simulates
-    /// one of them.
+    /// Begins a cycle of a swarm made for `cycles`, gives its parts to a crew, and simulates one of them.
     pub(super) fn begin(
         crew: &dyn Crew,
         swarm: &LiveSwarm,
@@ -40,8 +38,7 @@ impl SharedCycle {
         Ok(Self { own: own.simulate(&Simulator::default()), begun, others })
     }
 
-    /// Ends the cycle with the results of the workers; gives it back if some are missing. The error is that of a robot
-    /// that has failed in it.
+    /// Gives the cycle back if results are missing. The error is that of a robot that has failed in it.
     pub(super) fn end(self, swarm: &mut LiveSwarm) -> Result<Result<(), RobotFault>, Self> {
         let Some(others) = self.others.take() else { return Err(self) };
         let mut parts = vec![self.own];
@@ -50,7 +47,6 @@ impl SharedCycle {
     }
 }
 
-/// Simulates the cycles of a swarm, together with a crew if there is one and it is worth it.
 pub(super) struct SharedCycles {
     shell: Arc<dyn Shell>,
     present: Option<SharedCycle>,
@@ -98,7 +94,6 @@ fn parts(crew: usize, robots: usize) -> usize {
     (robots / LEAST_ROBOTS).clamp(1, crew + 1)
 }
 
-/// The robots in parts of almost the same number.
 fn ranges(parts: usize, robots: usize) -> impl Iterator<Item = Range<usize>> {
     (0..parts).map(move |part| part * robots / parts..(part + 1) * robots / parts)
 }

@@ -10,7 +10,6 @@ use crate::shell::PageFolder;
 use nbc_circuit::CancelFlag;
 use nbc_session::{Checked, Session};
 
-/// The texts of a page and what is known of them. Checks are parts of requests, and end with these.
 pub(super) struct TextChecker {
     session: Mutex<Session>,
     /// What has changed since the last check, by path, so that a change never waits for a check.
@@ -34,7 +33,6 @@ impl TextChecker {
         Self { session: Mutex::new(Session::new(world)), changes: Mutex::default(), cancel }
     }
 
-    /// Sets the text of the source at `path`, which hides that of the folder.
     pub(super) fn update(&self, path: String, text: String) {
         lock(&self.changes).texts.insert(path, Some(text));
     }
@@ -47,8 +45,7 @@ impl TextChecker {
         self.with(job, |session| session.checked(path))
     }
 
-    /// Uses the session with the texts as they are now. Others wait meanwhile, so that a page translates one Verilog
-    /// file at a time.
+    /// Others wait meanwhile, so that a page translates one Verilog file at a time.
     pub(super) fn with<R>(&self, job: &Job, work: impl FnOnce(&mut Session) -> R) -> Result<R, Refused> {
         let mut session = lock(&self.session);
         job.check()?;
@@ -72,7 +69,6 @@ impl TextChecker {
         if checked.has_errors() { Err(checked.fail(checked.diagnostics.clone()).into()) } else { Ok(checked) }
     }
 
-    /// The source at `path` with `more` at its end, without errors.
     pub(super) fn open_with(&self, path: &str, more: &str, job: &Job) -> Result<Arc<Checked>, Refused> {
         let checked = self.open(path, job)?;
         let own = checked.file.map_or("", |file| &checked.sources.file(file).text);

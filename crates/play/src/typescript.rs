@@ -37,7 +37,6 @@ impl TypeVisitor for Declared {
     }
 }
 
-/// A declaration with a line for each comment, each field of an object, and each object of a union.
 fn lines(declaration: &str) -> String {
     let is_union = declaration.contains("} |") || declaration.contains("} &");
     let (mut text, mut indent, mut is_comment, mut brackets) = (String::new(), "", false, 0);

@@ -36,7 +36,6 @@ fn finite(value: f64) -> f64 {
     if value.is_finite() { value } else { 0.0 }
 }
 
-/// The smallest of 1, 2, 5 times a power of ten that is at least `step`.
 fn round_step(step: f64) -> f64 {
     let power = libm::pow(10.0, libm::floor(libm::log10(step)));
     [1.0, 2.0, 5.0, 10.0]
@@ -46,7 +45,6 @@ fn round_step(step: f64) -> f64 {
         .unwrap_or(10.0 * power)
 }
 
-/// A tick's value with as many decimals as its steps need, and a true minus.
 pub fn tick_label(value: f64, ticks: &[f64]) -> String {
     let step = ticks.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
     let decimals = if step.is_finite() { (-libm::floor(libm::log10(step) + 1e-9)).max(0.0) as usize } else { 0 };
@@ -60,7 +58,6 @@ pub fn with_minus(number: &str) -> String {
     number.replace('-', "\u{2212}")
 }
 
-/// The range of values, extended on each side by a fraction of its length.
 pub fn range_of(values: impl IntoIterator<Item = f64>, margin: f64) -> (f64, f64) {
     let finite = values.into_iter().filter(|value| value.is_finite());
     let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
@@ -87,7 +84,6 @@ impl Panel {
         Self { x: Scale::new(x, (left, right)), y: Scale::new(y, (bottom, top)), left, top, right, bottom }
     }
 
-    /// The same panel with the second axis increasing downwards, for time in a spacetime diagram.
     pub fn downwards(self) -> Self {
         let y = Scale { from: self.top, to: self.bottom, ..self.y };
         Self { y, ..self }
@@ -113,7 +109,6 @@ impl Panel {
         }
     }
 
-    /// Ticks with their values left of the panel, pale lines through it, and the title of the axis left of the values.
     pub fn y_axis(&self, svg: &mut Svg, count: usize, label: &str) {
         let ticks = self.y.ticks(count);
         let mut widest = 0;

@@ -28,7 +28,6 @@ impl Color {
         Self::new(86, 180, 233),
         Self::new(240, 228, 66),
     ];
-    /// The colors of stimuli in all pictures; they start again at their end.
     pub const STIMULI: [Self; 4] = [Self::SERIES[0], Self::SERIES[4], Self::SERIES[3], Self::SERIES[5]];
     pub const OUTPUT: Self = Self::SERIES[2];
     pub const FAULT: Self = Self::SERIES[1];

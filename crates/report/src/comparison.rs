@@ -17,7 +17,6 @@ const CELLS: f64 = 64.0;
 const CELL: (f64, f64) = (84.0, 30.0);
 const LEGEND: f64 = 52.0;
 
-/// `unit` is the measured quantity.
 pub fn draw_comparison(title: &str, unit: &str, groups: &[BehaviorGroup], comparisons: &[GroupComparison]) -> Svg {
     let slots: Vec<f64> = (0..groups.len())
         .scan(-0.4, |slot, place| {
@@ -61,8 +60,7 @@ fn is_set_apart(groups: &[BehaviorGroup], comparisons: &[GroupComparison], place
         && across.all(|pair| pair.p_adjusted < SIGNIFICANT && pair.a12 > 0.5)
 }
 
-/// Draws values above a slot: a dot for each, a cross at their mean, and below the panel the name and the number of
-/// values.
+/// A dot for each value, a cross at their mean, and below the panel the name and the number of values.
 pub(super) fn draw_values(
     svg: &mut Svg,
     panel: &Panel,

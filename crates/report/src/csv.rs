@@ -9,8 +9,7 @@ pub(super) fn line(cells: impl IntoIterator<Item = String>) -> String {
     cells.into_iter().collect::<Vec<_>>().join(",") + "\n"
 }
 
-/// A text as a cell, quoted if necessary. A spreadsheet computes a text that begins like a formula, so such a text gets
-/// an apostrophe in front, which spreadsheets read as "this is text".
+/// A text that begins like a formula gets an apostrophe in front, which spreadsheets read as "this is text".
 pub(super) fn cell(text: &str) -> String {
     let is_formula =
         text.trim_start().starts_with(['=', '+', '-', '@', '\u{ff1d}', '\u{ff0b}', '\u{ff0d}', '\u{ff20}']);
@@ -19,9 +18,8 @@ pub(super) fn cell(text: &str) -> String {
     if plain { format!("{guard}{text}") } else { format!("\"{guard}{}\"", text.replace('"', "\"\"")) }
 }
 
-/// A row has the cycle from 1, the input ports during it, the output ports and every other net at its end, and the
-/// distance each robot walked in it, in voxels. A port of one bit is `0` or `1`. A wider one is a number, or quoted
-/// digits if it has more than 64 bits.
+/// Columns: the cycle from 1, inputs during it, outputs and all other nets at its end, voxels walked by each robot.
+/// A port of one bit is `0` or `1`, a wider one a number, or quoted digits if it has more than 64 bits.
 pub fn cycle_table(trace: &SwarmTrace) -> String {
     let ports: BTreeSet<String> = trace.inputs.iter().chain(&trace.outputs).flat_map(Column::bits).collect();
     let nets: Vec<usize> = (0..trace.robots.len()).filter(|&k| !ports.contains(&trace.robots[k].net)).collect();

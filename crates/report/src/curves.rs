@@ -15,7 +15,6 @@ const PANEL: f64 = 110.0;
 const TRACK: f64 = 34.0;
 const SAMPLES: u32 = 240;
 
-/// Draws the width of a material over time: two periods of an actuator, or a stimulus that appears and disappears.
 /// `None` for a passive material.
 pub fn draw_response(material: &Material) -> Option<Svg> {
     let palette = Palette::new(vec![material.clone()]);
@@ -41,14 +40,12 @@ pub fn draw_response(material: &Material) -> Option<Svg> {
     Some(svg)
 }
 
-/// The width of an actuator over two periods.
 fn periods(signals: &Signals, period: u32) -> Vec<Point> {
     let (steps, nothing) = (2 * period, Spell::of(Pattern::new(&[]), 1));
     let every = steps.div_ceil(SAMPLES).max(1) as usize;
     (0..=steps).step_by(every).map(|step| (cycles(step), signals.target(1, step, &nothing))).collect()
 }
 
-/// The width of a sensor while its stimulus is absent, present and absent again, for a cycle each.
 fn appearance(signals: &Signals, stimulus: usize) -> Vec<Point> {
     let width = |present: bool| {
         let pattern: Vec<bool> = (0..=stimulus).map(|i| present && i == stimulus).collect();
@@ -84,7 +81,6 @@ pub fn draw_schedule(title: &str, schedule: &Schedule, stimuli: &[(usize, &str)]
     svg
 }
 
-/// Whether a stimulus is present, as 0 or 1, at both ends of each spell.
 fn presence(schedule: &Schedule, stimulus: usize) -> Vec<Point> {
     let mut start = 0;
     let mut points = Vec::new();

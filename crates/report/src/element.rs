@@ -73,20 +73,16 @@ impl Type {
     }
 }
 
-/// A part of a drawing. Later elements cover earlier ones.
+/// Later elements cover earlier ones.
 #[derive(Clone, Debug)]
 pub(super) enum Element {
     /// By its upper left corner, its width and its height.
     Rect(Point, f64, f64, Paint),
     Line(Point, Point, Paint),
     Polyline(Vec<Point>, Paint),
-    /// A closed line through points.
     Polygon(Vec<Point>, Paint),
     Circle(Point, f64, Paint),
-    /// A text on its base line.
     Text(Point, String, Type),
-    /// Elements with an identity and a title.
     Group(String, String, Vec<Element>),
-    /// Elements with their origin at a point, scaled.
     Placed(Point, f64, Vec<Element>),
 }

@@ -30,7 +30,6 @@ pub struct SeedRun {
 }
 
 impl SeedRun {
-    /// The fittest elite of a behavior; the first of equals.
     pub fn champion(&self, behavior: Behavior) -> Option<&Elite> {
         let own = self.niches.iter().flat_map(|(_, elites)| elites).filter(|elite| elite.behavior == behavior);
         fittest(own)
@@ -77,7 +76,6 @@ impl EvolutionResults {
         fittest(self.runs.values().filter_map(|run| run.champion(behavior)))
     }
 
-    /// What a page shows to the elites, each for so many cycles: all patterns of their stimuli, or the images.
     pub fn shown(&self, cycles: u32) -> Schedule {
         let spell = |pattern| Spell::of(pattern, cycles * CYCLE_STEPS);
         let seen = |(set, image): (usize, &Arc<Image>)| Spell {
@@ -99,8 +97,7 @@ impl EvolutionResults {
         self.runs.values().flat_map(SeedRun::behaviors).collect()
     }
 
-    /// Coverage and QD-score over the generations; of two stimuli also the champions by the paper's difficulty, where a
-    /// behavior that is not found counts as 0.
+    /// Coverage and QD-score; of two stimuli also the champions by difficulty, where a missing behavior counts as 0.
     pub fn courses(&self) -> Vec<Course> {
         let runs = |value: &dyn Fn(&ProgressLine) -> f64| {
             let points = |run: &SeedRun| {
@@ -126,8 +123,7 @@ impl EvolutionResults {
         courses
     }
 
-    /// When each seed first found each behavior. Two stimuli: in order of the paper's groups. Three: only those that
-    /// were found, in order of the inputs that matter and of classes.
+    /// Two stimuli: in order of the paper's groups. Three: only the behaviors that were found, by inputs and classes.
     pub fn discoveries(&self) -> Vec<Discovery> {
         let first = |run: &SeedRun, behavior| {
             run.progress.iter().find(|line| line.best.contains_key(&behavior)).map(|line| line.generation)

@@ -18,8 +18,7 @@ use crate::swatches::{Swatches, UNCHANGED};
 use nbc_base::model::{GroundProfile, Image, ImageSize, Pattern};
 
 pub const FRAMES_PER_CYCLE: u32 = 12;
-/// Hundredths of a second for which a frame is shown: with twelve frames, a cycle takes about half a second, which is
-/// half the robots' own pace.
+/// Hundredths of a second for a frame: a cycle takes about half a second, half the robots' own pace.
 const DELAY: u16 = 4;
 
 const LARGE: usize = 32;
@@ -32,11 +31,8 @@ pub struct Film {
     pub title: String,
     pub lanes: Vec<String>,
     pub scheme: Scheme,
-    /// Rows and columns of the largest body.
     pub largest: usize,
-    /// The number of stimuli to show; of more than four, the first four.
     pub stimuli: usize,
-    /// The ground of each robot, as columns that repeat from its left end.
     pub ground: GroundProfile,
 }
 
@@ -89,7 +85,6 @@ impl<'a> Painter<'a> {
         patch
     }
 
-    /// Moves each camera when its robot leaves the middle of the lane.
     fn follow(&mut self, moment: &Moment) {
         if self.cameras.is_empty() {
             self.cameras = moment.centers.iter().map(|center| center[0]).collect();
@@ -102,7 +97,6 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// The voxels of ground above its lowest row, and the gaps in that row.
     fn paint_ground(&mut self, camera: f64, half: f64, lane: usize, to_pixel: impl Fn((f64, f64)) -> (f64, f64)) {
         let film = self.film;
         let (left, top) = (film.left(lane) + film.labels(), film.top(lane));
@@ -178,7 +172,6 @@ impl Film {
         self.lanes.len() > LARGE
     }
 
-    /// The most lanes in a column; more lanes form further columns.
     fn max_rows(&self) -> usize {
         if self.is_dense() { self.lanes.len().isqrt() * 4 / 3 } else { 8 }
     }
@@ -272,8 +265,7 @@ fn fill_rect(frame: &mut Pixmap, (x, y): (f64, f64), width: f64, height: f64, co
     }
 }
 
-/// Paints the voxels of each material as one shape and one outline, one material after another. Small robots have no
-/// `smooth` edges: they blur, and make a film half as large again.
+/// Small robots have no `smooth` edges: they blur, and make a film half as large again.
 fn paint_pose(
     frame: &mut Pixmap,
     pose: &Pose,
@@ -307,8 +299,7 @@ fn paint_pose(
     }
 }
 
-/// The smallest rectangle that contains every changed pixel, or one pixel if none changed. Unchanged pixels in it are
-/// [`UNCHANGED`], which makes long runs that compress well.
+/// The smallest rectangle around all changed pixels; the others in it are [`UNCHANGED`], which compresses well.
 fn patch(old: &[u8], fresh: &[u8], width: u32, height: u32) -> Patch {
     if old.len() != fresh.len() {
         return Patch { left: 0, top: 0, width, height, pixels: fresh.to_vec() };

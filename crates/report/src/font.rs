@@ -13,7 +13,6 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    /// A text in letters of that size. An ellipsis that a font lacks is three dots, another character a question mark.
     pub(super) fn of(text: &str, size: f64, bold: bool) -> Self {
         let face = Face::parse(if bold { BOLD } else { PLAIN }, 0).expect("the built-in fonts are fonts");
         let mut pen = Pen { path: PathBuilder::new(), x: 0.0 };

@@ -36,8 +36,7 @@ pub struct ArchiveMap<'a> {
     pub niches: &'a [(&'a NicheKey, f64)],
 }
 
-/// Draws an archive over two of its axes, given by index. Unless one of them is the axis of behaviors or of classes,
-/// there is a small map for each of those; of three stimuli, for each that has an elite.
+/// Unless one of the two axes is that of behaviors or of classes, there is a small map for each of those.
 pub fn draw_heatmap(title: &str, archive_map: &ArchiveMap<'_>, x: usize, y: usize) -> Svg {
     let axes = [x, y].map(|axis| Columns::of(archive_map, axis));
     let split = archive_map.axes.iter().position(|axis| !matches!(axis, Axis::Count { .. }));
@@ -95,7 +94,6 @@ struct Columns {
 }
 
 impl Columns {
-    /// All bins of an axis; of the behaviors of three stimuli and of classes, those that have an elite.
     fn of(archive_map: &ArchiveMap<'_>, place: usize) -> Self {
         let (axis, stimuli) = (archive_map.axes[place], archive_map.stimuli);
         let filled = || archive_map.niches.iter().map(|(NicheKey(key), _)| key[place]).collect::<BTreeSet<u16>>();
@@ -121,7 +119,6 @@ pub fn heat(share: f64) -> Color {
     MAP[below].mix(MAP[below + 1], place - below as f64)
 }
 
-/// The relative position of a value in a range: 0 at its start, 1 at its end.
 pub fn share((low, high): (f64, f64), value: f64) -> f64 {
     if high > low { (value - low) / (high - low) } else { 1.0 }
 }

@@ -12,10 +12,8 @@ const FLAT: usize = 25;
 /// A call with at most so many cells is no part of its own; one with `SMALL` only if there is no room for its cells.
 const FEW: usize = 2;
 const SMALL: usize = 8;
-/// The cells and parts up to which there is room for those of small calls.
 const ROOM: usize = 30;
 const MOST: usize = 40;
-/// Cells and parts in a division of a larger part.
 const DIVISION: usize = 24;
 
 #[derive(Clone, Debug, Default)]
@@ -28,10 +26,9 @@ pub struct CircuitPart {
     pub size: usize,
 }
 
-/// A circuit as a tree of parts. The first is the whole circuit.
 #[derive(Clone, Debug)]
 pub struct Hierarchy {
-    /// The parts, each after the one around it.
+    /// The whole circuit first, each part after the one around it.
     pub parts: Vec<CircuitPart>,
     pub home: BTreeMap<NetId, usize>,
 }
@@ -59,13 +56,11 @@ impl Hierarchy {
         tree.finish()
     }
 
-    /// The parts around a part and itself, outermost first; the whole circuit is left out.
     pub fn path(&self, part: usize) -> Vec<usize> {
         path_of(&self.parts, part)
     }
 
-    /// The title of a part, and more about it: its circuit and the name of its call. The circuit comes first unless
-    /// another part beside it calls the same, or it is a register.
+    /// Its circuit and the name of its call; the name first for a register, or beside a part of the same circuit.
     pub fn titles(&self, part: usize) -> (&str, Option<&str>) {
         let CircuitPart { name, circuit, outer, .. } = &self.parts[part];
         let Some(circuit) = circuit.as_deref() else { return (name, None) };
@@ -78,7 +73,6 @@ impl Hierarchy {
         if same > 1 || nbc_circuit::keeps_state(circuit) { (call, Some(circuit)) } else { (circuit, Some(call)) }
     }
 
-    /// The cells and wires of a part, each with the part directly inside in which it is.
     pub fn inside(&self, part: usize) -> BTreeMap<NetId, Option<usize>> {
         let mut inside: BTreeMap<NetId, Option<usize>> =
             self.parts[part].cells.iter().map(|&cell| (cell, None)).collect();
@@ -93,7 +87,6 @@ impl Hierarchy {
     }
 }
 
-/// The parts while they change; those that were dissolved are empty.
 struct Tree {
     parts: Vec<CircuitPart>,
 }
@@ -135,7 +128,6 @@ impl Tree {
         self.parts[part].cells.len() + self.parts[part].inner.len()
     }
 
-    /// Moves the cells of parts that are too small to be opened, or alone, into those around them, innermost first.
     fn dissolve_small(&mut self) {
         for at in (1..self.parts.len()).rev() {
             let outer = self.parts[at].outer.expect("only the first part has none around it");
@@ -154,7 +146,7 @@ impl Tree {
         }
     }
 
-    /// Divides parts with too many cells and parts inside. What is connected stays together.
+    /// What is connected stays together.
     fn divide_large(&mut self, ranks: &BTreeMap<NetId, usize>, nets: &NetNames<'_>) {
         let first: Vec<usize> = self.first_ranks(ranks);
         for at in 0..first.len() {
@@ -202,8 +194,6 @@ impl Tree {
         }
     }
 
-    /// What items of a part can be called together: the first and the last if all are parts; else the names of the
-    /// parts and nets that their robots are of, those of most robots first.
     fn words(&self, at: usize, items: &[(usize, Item)], nets: &NetNames<'_>) -> Vec<Word> {
         let named = |inner: usize| {
             let CircuitPart { name, circuit, .. } = &self.parts[inner];
@@ -271,8 +261,7 @@ fn path_of(parts: &[CircuitPart], part: usize) -> Vec<usize> {
     path
 }
 
-/// The place of each cell and wire in an order in which each comes soon after those it reads: that of a search from the
-/// outputs against the direction of the wires.
+/// An order in which each comes soon after those it reads: a search from the outputs against the wires.
 fn ranks(netlist: &Netlist) -> BTreeMap<NetId, usize> {
     let mut ranks = BTreeMap::new();
     let mut seen = BTreeSet::new();

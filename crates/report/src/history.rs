@@ -17,8 +17,7 @@ pub struct ProgressLine {
 }
 
 impl ProgressLine {
-    /// The mean of the champions' first fitness over the behaviors of two stimuli of one difficulty, 0 to 3 in the
-    /// paper's order. One that was not found counts as 0.
+    /// Over the behaviors of one difficulty, 0 to 3 in the paper's order. One that was not found counts as 0.
     pub fn mean_fitness(&self, difficulty: usize) -> f64 {
         let own: Vec<Behavior> = Behavior::all(2).filter(|&one| difficulty_of(one) == difficulty).collect();
         let best = |behavior| self.best.get(behavior).map_or(0.0, |fitness| fitness[0]);
@@ -39,8 +38,7 @@ pub struct History<'a> {
 }
 
 impl<'a> History<'a> {
-    /// The history of a run of this many generations. Later lines were written after the last checkpoint, and the run
-    /// will repeat them. A line that cannot be read counts as missing.
+    /// Lines after the last checkpoint are skipped: the run repeats them. An unreadable line counts as missing.
     pub fn read(text: &'a str, generations: u32) -> Self {
         let mut lines = BTreeMap::new();
         for text in text.lines() {
@@ -60,7 +58,6 @@ impl<'a> History<'a> {
         self.lines.values().flat_map(|(_, text)| [*text, "\n"]).collect()
     }
 
-    /// A description of the damage; `None` if each generation has its line.
     pub fn damage(&self) -> Option<String> {
         let missing = self.generations as usize - self.lines.len();
         let first = (1..=self.generations).find(|generation| !self.lines.contains_key(generation))?;

@@ -9,7 +9,6 @@ pub fn ink(value: f64) -> Color {
     Color::WHITE.mix(Color::BLACK, value)
 }
 
-/// Draws an image whose longer side has that length.
 pub fn draw_image(svg: &mut Svg, corner: Point, side: f64, image: &Image) {
     draw_pixels(svg, corner, pixel_side(image, side), image.size(), |at| ink(image.pixels()[at]));
 }

@@ -10,7 +10,6 @@ const SWEEPS: usize = 8;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Slot {
     Node(NetId),
-    /// A net that passes through to later layers.
     Pass(NetId),
 }
 
@@ -21,7 +20,6 @@ pub struct Layers {
 }
 
 impl Layers {
-    /// Wires are placed like cells.
     pub fn of(netlist: &Netlist) -> Self {
         let layer_of = assign(netlist);
         let count = layer_of.values().max().map_or(0, |last| last + 1);
@@ -53,7 +51,6 @@ impl Layers {
         if self.layer_of(net) == layer { Slot::Node(net) } else { Slot::Pass(net) }
     }
 
-    /// Orders each layer by the mean height of its slots' neighbors on one side.
     fn sweep(&mut self, netlist: &Netlist, forwards: bool) {
         let count = self.layers.len();
         let order: Vec<usize> = if forwards { (0..count).collect() } else { (0..count).rev().collect() };
@@ -74,8 +71,7 @@ impl Layers {
         self.entries(netlist, slot, layer).into_iter().map(|(before, _)| (layer - 1, before)).collect()
     }
 
-    /// The slots of the previous layer that are wired to a slot, each with the relative height at which the wire
-    /// enters.
+    /// The slots of the previous layer that are wired to a slot, and the relative heights at which the wires enter.
     pub fn entries(&self, netlist: &Netlist, slot: Slot, layer: usize) -> Vec<(Slot, f64)> {
         let id = match slot {
             Slot::Pass(net) => return vec![(self.carrier(net, layer - 1), 0.5)],
@@ -102,8 +98,7 @@ fn heights(slots: &[Slot]) -> BTreeMap<Slot, f64> {
     slots.iter().enumerate().map(|(i, &slot)| (slot, (i as f64 + 0.5) / count)).collect()
 }
 
-/// The layer of each node: inputs and constants in the first, every node after its drivers except those of feedback,
-/// outputs in the last.
+/// Inputs and constants in the first layer, each node after its drivers except those of feedback, outputs in the last.
 fn assign(netlist: &Netlist) -> BTreeMap<NetId, usize> {
     let loops = Loops::of(netlist);
     let mut layer: BTreeMap<NetId, usize> = BTreeMap::new();
@@ -151,7 +146,6 @@ pub fn straighten(layers: &Layers, netlist: &Netlist, height: impl Fn(Slot) -> f
     tops.into_iter().map(|layer| layer.into_iter().map(|top| top - highest).collect()).collect()
 }
 
-/// The position of a slot at which its wires to one side are straight on average; its current position if it has none.
 fn wanted(
     layers: &Layers,
     netlist: &Netlist,
@@ -187,8 +181,7 @@ fn wanted(
     if wires.is_empty() { tops[layer][place] } else { wires.iter().sum::<f64>() / wires.len() as f64 }
 }
 
-/// The tops closest to the wanted ones by least squares that keep the order and do not overlap: neighbors that would
-/// overlap are placed together at their mean (isotonic regression by pooling adjacent violators).
+/// The closest by least squares that keep order and distance (isotonic regression by pooling adjacent violators).
 fn nearest(wanted: &[f64], needed: &[f64]) -> Vec<f64> {
     let offsets: Vec<f64> = needed
         .iter()

@@ -22,7 +22,7 @@ pub struct Mark {
     pub polygons: &'static [&'static [Point]],
 }
 
-/// The looks of the materials in one picture. Equal materials look alike in all bodies of the picture.
+/// Equal materials look alike in all bodies of the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Looks {
     palettes: Vec<Arc<Palette>>,
@@ -74,8 +74,7 @@ const SHAPES: [&[&[Point]]; 12] = [
 ];
 
 impl Look {
-    /// The look of the `i`-th material that is not the paper's: a shape, light with dark ink first, then with white
-    /// ink, then dark. The series is longer than a palette; after its end it starts again.
+    /// The `i`-th material that is not the paper's. The series is longer than a palette, and then starts again.
     fn beyond(i: usize) -> Self {
         let hue = HUES[i % HUES.len()];
         let (color, ink) = match i / SHAPES.len() % 3 {
@@ -125,7 +124,6 @@ impl Looks {
         self.materials.iter().map(|(material, look)| (material, *look))
     }
 
-    /// The materials that occur in these bodies with their legends, in order of their looks.
     pub fn legend<'a>(&self, bodies: impl IntoIterator<Item = &'a Body>) -> Vec<(Look, String)> {
         let mut entries: Vec<(usize, String)> = Vec::new();
         for body in bodies {
@@ -148,7 +146,6 @@ fn code_digit(code: u8) -> char {
     char::from_digit(code.into(), 36).unwrap_or('?')
 }
 
-/// A material's name, with its numbers if it is not one of the paper's.
 pub fn describe_material(material: &Material) -> String {
     let name = &material.name;
     if material.paper_code().is_some() {

@@ -22,9 +22,7 @@ pub fn call_name<'a>(name: &'a str, circuit: &'a str) -> &'a str {
 
 pub struct NetNames<'a> {
     netlist: &'a Netlist,
-    /// The names that the source gives to nets of cells, or the outputs that show them.
     named: BTreeMap<NetId, String>,
-    /// For the other cells, the first name that is reached from them.
     reached: BTreeMap<NetId, String>,
 }
 
@@ -49,8 +47,7 @@ impl<'a> NetNames<'a> {
         Self { netlist, named, reached }
     }
 
-    /// The group of a cell within these calls, and its place in it: its bus; the call around it; the bus to which it
-    /// leads; or its function.
+    /// By the cell's bus, or else the call around it, the bus to which it leads, or its function.
     pub fn within(&self, cell: NetId, calls: &[&str]) -> (String, Option<usize>) {
         let bus = |name: &str| name.split(['[', '/', '.']).next().unwrap_or(name).to_owned();
         if let Some(name) = self.named.get(&cell) {
@@ -90,7 +87,6 @@ impl Word {
         self.places = place.map(|place| (least.min(place), greatest.max(place))).or(self.places);
     }
 
-    /// Names of nets and calls before what leads to them, and more robots before fewer.
     pub fn order(&self) -> (bool, Reverse<usize>) {
         (self.name.starts_with("to "), Reverse(self.robots))
     }
@@ -104,8 +100,7 @@ impl Word {
     }
 }
 
-/// A name for each division, of its words. Where two would be the same, they say their places in the bus, then the
-/// second word, and then a number.
+/// Equal names get their places in the bus, then the second word, then a number.
 pub fn distinct_names(divisions: &[Vec<Word>]) -> Vec<String> {
     let joined = |words: &[Word], first: String| {
         words.get(1).map_or(first.clone(), |second| format!("{first}, {}", second.with_places()))

@@ -17,8 +17,7 @@ pub struct OcclusionMap<'a> {
     pub title: &'a str,
     pub body: &'a Body,
     pub size: ImageSize,
-    /// For each pixel how much less far the body walks the right way when it is covered, in voxels; none where no voxel
-    /// senses it.
+    /// How much less far the body walks when a pixel is covered, in voxels; none where no voxel senses it.
     pub losses: &'a [Option<f64>],
     pub sets: &'a [(String, Vec<f64>)],
 }

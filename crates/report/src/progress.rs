@@ -9,7 +9,6 @@ use crate::svg::Svg;
 pub struct Course {
     pub title: String,
     pub unit: String,
-    /// What is drawn: one quantity with a line for each seed, or several, each with its median and its band.
     pub series: Vec<Series>,
 }
 
@@ -30,7 +29,7 @@ impl Course {
     }
 }
 
-/// Draws quantities one below the other over one axis of time. Those of one unit share a scale.
+/// Quantities of one unit share a scale.
 pub fn draw_progress(title: &str, time: &str, courses: &[Course]) -> Svg {
     let mut svg = Svg::titled(640.0, 40.0 + 240.0 * courses.len() as f64, title);
     let until = range_of(courses.iter().flat_map(|course| course.points().map(|at| at.0)), 0.0).1;
@@ -86,7 +85,6 @@ fn draw_median(svg: &mut Svg, panel: &Panel, runs: &[Vec<Point>], color: Color) 
     panel.curve(svg, median, Paint::stroke(color, 2.2));
 }
 
-/// All times at which any run has a value, until the first run ends.
 fn times(runs: &[Vec<Point>]) -> Vec<f64> {
     let ends = runs.iter().filter_map(|run| run.last());
     let end = ends.map(|at| at.0).fold(f64::INFINITY, f64::min);
@@ -96,7 +94,6 @@ fn times(runs: &[Vec<Point>]) -> Vec<f64> {
     times
 }
 
-/// The values of all runs at a time, in order of size.
 fn values_at(runs: &[Vec<Point>], time: f64) -> Vec<f64> {
     let last = |run: &Vec<Point>| run[..run.partition_point(|at| at.0 <= time)].last().or(run.first()).map(|at| at.1);
     let mut values: Vec<f64> = runs.iter().filter_map(last).collect();

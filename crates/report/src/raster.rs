@@ -41,7 +41,6 @@ fn draw(pixmap: &mut Pixmap, elements: &[Element], transform: Transform) {
     }
 }
 
-/// A length; one that is not a number becomes 0, as in the text of a drawing.
 fn pixel(length: f64) -> f32 {
     if length.is_finite() { length as f32 } else { 0.0 }
 }
@@ -65,7 +64,6 @@ pub(super) fn line(points: &[Point], closed: bool) -> Option<Path> {
     path.finish()
 }
 
-/// A path that is empty or too small leaves no ink.
 pub(super) fn ink(pixmap: &mut Pixmap, path: Option<Path>, paint: &Paint, transform: Transform) {
     let Some(path) = path else { return };
     let opacity = paint.opacity.unwrap_or(1.0);

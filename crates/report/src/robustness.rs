@@ -53,7 +53,6 @@ fn margin(margin: &RobotMargin) -> String {
     format!("{margin:.4} voxels a cycle, `{robot}` at `{net}` in cycle {cycle}")
 }
 
-/// The fields of a world as the language writes them.
 fn declaration(world: &PhysicsWorld) -> String {
     let (factors, noise) = (world.factors, world.noise);
     let (paper, silent) = (WorldFactors::default(), WorldNoise::default());

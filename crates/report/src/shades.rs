@@ -33,8 +33,7 @@ impl Shades {
     }
 }
 
-/// The palette for colors, the most frequent first: those that differ from the ones before by at least the smallest
-/// difference with which they fit.
+/// The most frequent first: colors that differ from those before by the smallest difference with which they fit.
 fn palette(shades: &[Shade]) -> Vec<Shade> {
     let (mut low, mut high) = (1, u16::from(u8::MAX));
     let mut found = Vec::new();
@@ -51,7 +50,6 @@ fn palette(shades: &[Shade]) -> Vec<Shade> {
     found
 }
 
-/// The colors that differ by at least `least` from those before them; none if a palette has too little room.
 fn distinct(shades: &[Shade], least: u16) -> Option<Vec<Shade>> {
     let mut palette: Vec<Shade> = Vec::new();
     for &shade in shades {

@@ -15,7 +15,6 @@ const MOST_PORTS: usize = 40;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SheetItem {
     Cell(NetId),
-    /// A wire of a circuit that is not mapped yet.
     Wire,
     Part(usize),
     Port,
@@ -24,13 +23,10 @@ pub enum SheetItem {
 
 #[derive(Clone, Debug)]
 pub struct Sheet {
-    /// Its nodes and what they are wired to. A part is a cell with a pin for each node that it listens to.
     pub netlist: Netlist,
     pub shown: BTreeMap<NetId, SheetItem>,
-    /// The nets of the circuit that each node drives here.
     pub nets: BTreeMap<NetId, Vec<NetId>>,
     pub ports: BTreeMap<NetId, Vec<NetId>>,
-    /// The node of each cell and wire of the part and of those inside it, and of each port of the circuit.
     nodes: BTreeMap<NetId, NetId>,
 }
 
@@ -47,7 +43,6 @@ struct Builder<'a> {
     circuit: &'a Netlist,
     hierarchy: &'a Hierarchy,
     part: usize,
-    /// The cells and wires of the part, each with the part inside in which it is.
     inside: BTreeMap<NetId, Option<usize>>,
     near: BTreeSet<NetId>,
     sources: PortNames,
@@ -197,7 +192,7 @@ impl Builder<'_> {
         sheet.nets.entry(node).or_default().extend(id);
     }
 
-    /// Connects the nodes as the circuit is. A part and a port with several nets have one pin for each driver.
+    /// A part or a port with several nets has one pin for each driver.
     fn connect(&mut self) {
         let mut known: BTreeMap<NetId, Vec<NetId>> = BTreeMap::new();
         for &id in &self.near {
@@ -242,7 +237,6 @@ impl Builder<'_> {
 struct PortNames(BTreeMap<NetId, String>);
 
 impl PortNames {
-    /// Each net comes with its name and, if the source does not name it, with the name that it shares with others.
     fn of(nets: Vec<(NetId, String, Option<String>)>) -> Self {
         let is_few = nets.len() <= MOST_BITS;
         let mut known = BTreeSet::new();

@@ -13,7 +13,6 @@ use nbc_swarm::{RobotTrace, StimulusSource, SwarmTrace};
 const PANEL_WIDTH: f64 = 150.0;
 const LETTER_WIDTH: f64 = 7.0;
 const BESIDE_PANEL: f64 = 130.0;
-/// The most spells whose distances a heading tells.
 const MOST_WALKED: usize = 12;
 const STRIP_WIDTH: f64 = 13.0;
 const STRIP_GAP: f64 = 4.0;
@@ -104,8 +103,7 @@ pub fn draw_robot(name: &str, trial: &Trial, trajectory: &Trajectory) -> Svg {
     draw_rows(&format!("{name} in space and time"), cycles_of(schedule.steps()), &rows)
 }
 
-/// Voxels walked in each spell, such as `00 +1.20, 11 −0.31`, or `+1.20, −0.31` without stimuli. Incomplete spells are
-/// left out. Of many spells, the first.
+/// Such as `00 +1.20, 11 −0.31`, or `+1.20, −0.31` without stimuli: complete spells, and of many the first.
 fn walked(schedule: &Schedule, stimuli: usize, trajectory: &Trajectory) -> String {
     let mut start = 0;
     let mut told = Vec::new();
@@ -123,8 +121,7 @@ fn walked(schedule: &Schedule, stimuli: usize, trajectory: &Trajectory) -> Strin
     told.join(", ")
 }
 
-/// The diagram of a swarm: each robot with its own stimuli, then the circuit's outputs with the circuit's inputs
-/// (paper, figure 5). Of a large swarm it shows the robots of outputs and of named nets.
+/// As in the paper, figure 5. Of a large swarm it shows the robots of outputs and of named nets.
 pub fn draw_swarm(trace: &SwarmTrace) -> Svg {
     let changes = input_changes(trace);
     let chosen: BTreeSet<usize> = trace.by_interest().into_iter().take(MAX_PANELS).collect();
@@ -156,7 +153,6 @@ fn rows<'a>(heading: &str, tracks: &'a [Track], changes: &'a [f64]) -> Vec<Row<'
     tracks.chunks(MAX_COLUMNS).map(row).collect()
 }
 
-/// The cycles of a swarm, with that in which a robot failed, so that its fault is in the picture.
 fn length(trace: &SwarmTrace) -> f64 {
     (trace.cycles.len() + usize::from(trace.fault().is_some())) as f64
 }
@@ -183,7 +179,6 @@ fn robot_track(trace: &SwarmTrace, k: usize) -> Track {
     }
 }
 
-/// The robot shown by an output port, with the circuit's inputs beside it; `None` if the port shows no robot.
 fn output_track(trace: &SwarmTrace, output: usize) -> Option<Track> {
     let StimulusSource::Robot(k) = trace.shown[output] else { return None };
     let robot = &trace.robots[k];
@@ -202,7 +197,6 @@ fn input_strips(trace: &SwarmTrace) -> Vec<Strip> {
     (0..trace.inputs.len().min(8)).map(|port| Strip::of_input(trace, port, Color::input(port))).collect()
 }
 
-/// The color of a signal, which is the same wherever it is sensed: that of its port, or that of robots' outputs.
 fn signal_color(trace: &SwarmTrace, source: StimulusSource) -> Color {
     let StimulusSource::Input(bit) = source else { return Color::OUTPUT };
     let ports = trace.inputs.iter().enumerate();

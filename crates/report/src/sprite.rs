@@ -32,7 +32,6 @@ impl Pose {
         Self { voxels, palette: Arc::clone(body.palette()) }
     }
 
-    /// `to_pixel` maps a point of the world to the picture.
     pub fn draw(&self, svg: &mut Svg, looks: &Looks, opacity: f64, to_pixel: impl Fn(Point) -> Point) {
         let faded = |paint: Paint| if opacity < 1.0 { paint.with_opacity(opacity) } else { paint };
         for (corners, code) in &self.voxels {
@@ -46,7 +45,6 @@ impl Pose {
     }
 }
 
-/// Only the body, with `voxel` pixels for each voxel's side, on a transparent background.
 pub fn draw_body(body: &Body, looks: &Looks, voxel: f64) -> Svg {
     let (width, height) = (body.width() as f64 * voxel, body.height() as f64 * voxel);
     let mut svg = Svg::transparent(width + 2.0, height + 2.0, "a robot's body");
@@ -60,7 +58,6 @@ pub fn draw_sprite(robot: &Robot, scheme: Scheme) -> Svg {
     draw_portrait(&title, &robot.body, scheme)
 }
 
-/// A body with a title and the names of its materials.
 pub fn draw_portrait(title: &str, body: &Body, scheme: Scheme) -> Svg {
     let voxel = 24.0;
     let looks = Looks::of([body], scheme);
@@ -136,7 +133,6 @@ fn draw_one(svg: &mut Svg, portrait: &Portrait, looks: &Looks, voxel: f64, (left
     let middle = left + PITCH.0 / 2.0;
     let picture = draw_body(&portrait.body, looks, voxel);
     svg.text((middle, top + 14.0), &portrait.title, Type::new(12.0).bold().anchored(Anchor::Middle));
-    // All stand on one line.
     let place = (middle - picture.width() / 2.0, top + 22.0 + SIDE + 2.0 - picture.height());
     svg.place(place, 1.0, &picture);
     let small = Type::new(10.0).colored(Color::GRAY).anchored(Anchor::Middle);

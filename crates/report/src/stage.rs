@@ -11,7 +11,6 @@ pub struct Stage {
     flock: Box<dyn Flock>,
     /// The ground of each robot, as columns that repeat from its left end.
     pub ground: GroundProfile,
-    /// The materials of each robot's codes.
     pub(super) palettes: Vec<Arc<Palette>>,
     /// Consecutive spells: env steps, and each robot's spell of that length.
     spells: Vec<(u32, Vec<Spell>)>,
@@ -46,7 +45,6 @@ impl Stage {
         Self::in_world(assembly, trace, trace.cycles.len(), stride)
     }
 
-    /// A swarm that begins with these states of its robots, in a world for that many cycles.
     pub fn of_running_swarm(
         assembly: &Assembly,
         trace: &SwarmTrace,
@@ -88,7 +86,6 @@ impl Stage {
         self.spells.iter().map(|spell| spell.0).sum()
     }
 
-    /// The number of moments: the start, and one after each complete stride.
     pub fn moments(&self) -> usize {
         (self.steps() / self.stride) as usize + 1
     }
@@ -133,7 +130,6 @@ impl Stage {
         Pose { voxels, palette: Arc::clone(&self.palettes[i]) }
     }
 
-    /// Advances by one stride; returns false if less is left.
     fn advance(&mut self) -> bool {
         if self.steps() - self.step < self.stride {
             return false;

@@ -90,7 +90,6 @@ fn snapshots<'a>(setting: &Setting, body: &Body, schedule: &'a Schedule) -> Vec<
     rows
 }
 
-/// The last of these moments over ghosts of those before it, in one frame of reference.
 fn draw_shot(svg: &mut Svg, moments: &[Moment], (middle, ground): Point, scale: f64, looks: &Looks) {
     let last = moments.len() - 1;
     let camera = moments[last].centers[0][0];

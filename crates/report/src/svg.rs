@@ -34,21 +34,18 @@ pub struct Svg {
 }
 
 impl Svg {
-    /// An empty drawing on white, with a title for screen readers.
     pub fn new(width: f64, height: f64, title: &str) -> Self {
         let mut svg = Self { width, height, title: title.to_owned(), elements: Vec::new() };
         svg.rect((0.0, 0.0), width, height, Paint::fill(Color::WHITE));
         svg
     }
 
-    /// A drawing on white with its title as a heading.
     pub(super) fn titled(width: f64, height: f64, title: &str) -> Self {
         let mut svg = Self::new(width, height, title);
         svg.text((14.0, 28.0), title, Type::new(16.0).bold());
         svg
     }
 
-    /// An empty drawing on a transparent background, to be placed on other drawings.
     pub fn transparent(width: f64, height: f64, title: &str) -> Self {
         Self { width, height, title: title.to_owned(), elements: Vec::new() }
     }
@@ -63,7 +60,6 @@ impl Svg {
         self.height
     }
 
-    /// By its upper left corner.
     pub fn rect(&mut self, corner: Point, width: f64, height: f64, paint: Paint) {
         self.elements.push(Element::Rect(corner, width, height, paint));
     }
@@ -72,7 +68,6 @@ impl Svg {
         self.elements.push(Element::Line(from, to, paint));
     }
 
-    /// A line through points.
     pub fn polyline(&mut self, points: &[Point], paint: Paint) {
         self.elements.push(Element::Polyline(points.to_vec(), paint));
     }
@@ -85,7 +80,6 @@ impl Svg {
         self.elements.push(Element::Circle(middle, radius, paint));
     }
 
-    /// A line of text on its base line.
     pub(super) fn cross(&mut self, (x, y): Point, paint: Paint) {
         self.line((x - 5.0, y - 5.0), (x + 5.0, y + 5.0), paint);
         self.line((x - 5.0, y + 5.0), (x + 5.0, y - 5.0), paint);
@@ -95,7 +89,6 @@ impl Svg {
         self.elements.push(Element::Text(at, text.to_owned(), set));
     }
 
-    /// A group of shapes with an identity and a title, for pages that let readers pick it.
     pub fn group(&mut self, id: &str, title: &str, draw: impl FnOnce(&mut Self)) {
         let outer = std::mem::take(&mut self.elements);
         draw(self);
@@ -103,7 +96,6 @@ impl Svg {
         self.elements.push(Element::Group(id.to_owned(), title.to_owned(), inner));
     }
 
-    /// Another drawing with its upper left corner at this point, scaled.
     pub fn place(&mut self, corner: Point, scale: f64, other: &Self) {
         self.elements.push(Element::Placed(corner, scale, other.elements.clone()));
     }
@@ -118,7 +110,6 @@ impl Svg {
         &self.elements
     }
 
-    /// The whole drawing as a file.
     pub fn finish(&self) -> String {
         let (width, height, title) = (Number(self.width), Number(self.height), Escaped(&self.title));
         format!(
@@ -194,7 +185,6 @@ fn write_text(f: &mut fmt::Formatter<'_>, (x, y): Point, text: &str, set: &Type)
     write!(f, ">{}</text>", Escaped(text))
 }
 
-/// The first characters of a text that has more than `most`.
 pub fn shorten(text: &str, most: usize) -> String {
     match text.char_indices().nth(most) {
         Some(_) => text.chars().take(most - 1).chain(['…']).collect(),

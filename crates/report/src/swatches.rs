@@ -16,7 +16,6 @@ pub struct Swatches {
 }
 
 impl Swatches {
-    /// The colors of a film with materials of these looks and so many stimuli, and their mixtures with the background.
     pub fn new(looks: &Looks, scheme: Scheme, stimuli: usize) -> Self {
         let materials: Vec<Color> = (1..=8).map(|code| scheme.color(code)).collect();
         let own = [
@@ -65,7 +64,6 @@ impl Swatches {
         self.nearest[key(r, g, b)]
     }
 
-    /// All colors as red, green and blue, and at last an unused one for [`UNCHANGED`].
     pub fn bytes(&self) -> Vec<u8> {
         let unseen = std::iter::repeat_n(Color::BLACK, 256 - self.colors.len());
         self.colors.iter().copied().chain(unseen).flat_map(|color| [color.r, color.g, color.b]).collect()

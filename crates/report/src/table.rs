@@ -8,7 +8,6 @@ pub enum Align {
     Right,
 }
 
-/// A table with a header, its columns two blanks apart.
 #[derive(Clone, Debug)]
 pub struct TextTable {
     columns: Vec<(String, Align)>,

@@ -12,7 +12,6 @@ use nbc_swarm::SwarmTrace;
 /// Microseconds of one actuation cycle: 84 env steps of 3 ms (docs/physics.md 1 and 10).
 const CYCLE: u64 = 252_000;
 
-/// One signal over time.
 struct Wave {
     name: String,
     /// Its type and width, such as `wire 1`.
@@ -30,7 +29,6 @@ impl Wave {
         Self { name: name.into(), kind: kind.to_owned(), range: String::new(), values }
     }
 
-    /// A signal of bits, which is unknown before its first value.
     fn bits(name: impl Into<String>, width: usize, delay: u64, digits: impl Iterator<Item = String>) -> Self {
         let text = |digits: String| if width == 1 { digits } else { format!("b{digits} ") };
         let mut wave = Self::new(name, &format!("wire {width}"), delay, digits.map(text));
@@ -44,16 +42,14 @@ impl Wave {
     }
 }
 
-/// Signals with one name in front, in a part of the circuit.
 struct Scope {
     part: Vec<String>,
     name: String,
     waves: Vec<Wave>,
 }
 
-/// A trace as a value change dump. Inputs and stimuli change at the start of a cycle, outputs at the end of the cycle
-/// that produced them. Positions of robots are given at the start and at the end of each cycle, in voxels to the
-/// hundredth.
+/// Inputs and stimuli change at the start of a cycle, outputs at the end of the cycle that produced them. Positions
+/// of robots are given at both, in voxels to the hundredth.
 pub fn vcd(trace: &SwarmTrace) -> String {
     let scopes = scopes(trace);
     let mut text = String::from("$version nbc $end\n$timescale 1 us $end\n");
@@ -99,7 +95,6 @@ fn scopes(trace: &SwarmTrace) -> Vec<Scope> {
     scopes
 }
 
-/// The waves of ports, with the values of all in each cycle.
 fn port_waves(ports: &[Column], values: &[Vec<Value>], delay: u64) -> Vec<Wave> {
     let of = |at: usize| values.iter().map(move |all| &all[at]);
     let mut waves: Vec<Wave> = Vec::new();
@@ -140,12 +135,10 @@ fn enter(text: &mut String, from: &[String], to: &[String]) {
     to[common..].iter().for_each(|part| text.push_str(&format!("$scope module {} $end\n", identifier(part))));
 }
 
-/// A word as a value of a signal, which has no blanks.
 fn word(text: &str) -> String {
     text.chars().filter(|c| !c.is_whitespace()).collect()
 }
 
-/// The short name of a signal: printable ASCII, counted like numbers.
 fn code(mut number: usize) -> String {
     let mut code = String::new();
     loop {
@@ -158,8 +151,7 @@ fn code(mut number: usize) -> String {
     }
 }
 
-/// Valid names for readers of dumps: letters, digits and underscores. A valid name stays as it is; equal names are
-/// numbered.
+/// Letters, digits and underscores. A valid name stays as it is; equal names are numbered.
 fn identifiers<'n>(names: impl Iterator<Item = &'n str> + Clone) -> Vec<String> {
     let mut taken: BTreeSet<String> =
         names.clone().filter(|name| identifier(name) == **name).map(str::to_owned).collect();
@@ -178,7 +170,6 @@ fn identifiers<'n>(names: impl Iterator<Item = &'n str> + Clone) -> Vec<String> 
     names.map(&mut unique).collect()
 }
 
-/// A name with other characters replaced: `a[3]` is `a_3`.
 fn identifier(name: &str) -> String {
     let name = name.strip_suffix(']').unwrap_or(name);
     let plain: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();

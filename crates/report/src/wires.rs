@@ -38,7 +38,6 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// Ports have room for the longest name, within limits.
     pub fn of(netlist: &Netlist) -> Self {
         let ports = netlist.ids().filter(|&id| matches!(netlist.node(id), Node::Input(_) | Node::Output(_)));
         let longest = ports.map(|id| netlist.net_name(id).chars().count()).max().unwrap_or(0);
@@ -122,8 +121,7 @@ fn feedback_nets(netlist: &Netlist, layers: &Layers) -> Vec<NetId> {
     netlist.ids().filter(runs_back).collect()
 }
 
-/// The nets with a track in each channel: forward nets in every channel they cross, and feedback nets where they leave
-/// and where they arrive.
+/// Forward nets are in every channel they cross, feedback nets where they leave and where they arrive.
 fn tracks(netlist: &Netlist, layers: &Layers) -> Vec<Vec<(NetId, bool)>> {
     let mut tracks = vec![BTreeSet::new(); layers.layers.len() + 1];
     for id in netlist.ids() {
@@ -143,7 +141,6 @@ fn tracks(netlist: &Netlist, layers: &Layers) -> Vec<Vec<(NetId, bool)>> {
     tracks.into_iter().map(|channel| channel.into_iter().collect()).collect()
 }
 
-/// Draws a net: in each channel a trunk with a branch for each slot it goes to.
 pub fn draw_net(svg: &mut Svg, netlist: &Netlist, plan: &SheetPlan, net: NetId, critical: &BTreeSet<(NetId, NetId)>) {
     let from = plan.layers.layer_of(net);
     let fanout = netlist.fanout(net);
@@ -202,7 +199,6 @@ fn draw_trunk(svg: &mut Svg, exit: Point, track: f64, ends: &[(Point, bool)], la
     }
 }
 
-/// A wire that runs back: along a lane below the layers and up to its pin.
 fn draw_feedback(
     svg: &mut Svg,
     netlist: &Netlist,

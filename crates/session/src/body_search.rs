@@ -59,8 +59,7 @@ impl BodySearch {
 }
 
 impl BodyTrials {
-    /// The scores of each body; `None` if it cannot be measured, or behaves differently in long simulations than in the
-    /// short holds of the search.
+    /// `None` if a body cannot be measured, or behaves otherwise in long simulations than in the search's short holds.
     pub fn measure(&self, simulator: &Simulator) -> Vec<Option<Scores>> {
         let outcomes = evaluate_bodies(simulator, &self.evolution, self.bodies.clone());
         let measured = |outcome| if let CandidateOutcome::Measured(scores) = outcome { Some(scores) } else { None };
@@ -73,7 +72,6 @@ impl BodyTrials {
         found
     }
 
-    /// Splits the bodies into parts of almost equal size, in order.
     pub fn split(&self, parts: usize) -> Vec<Self> {
         let all = self.bodies.len();
         let part = |part: usize| self.bodies[part * all / parts..(part + 1) * all / parts].to_vec();

@@ -18,8 +18,7 @@ use nbc_lang::check::DEFAULT_LIBRARY;
 /// Larger circuits are not made into wave machines during a check.
 const SMALL: usize = 200;
 
-/// Errors of a program without other errors. `files` replace declared files, by name and path. Libraries of evolutions
-/// that have not run yet are skipped.
+/// `files` replace declared files, by name and path. Libraries of evolutions that have not run yet are skipped.
 pub(super) fn faults(sources: RobotSources<'_>, program: &Program, files: &[(String, String)]) -> Vec<Diagnostic> {
     let mut look = Look { sources, program, faults: Vec::new() };
     for declared in &program.libraries {
@@ -66,7 +65,6 @@ impl Look<'_> {
         }
     }
 
-    /// Options of a search that stops when the check is cancelled.
     fn options(&self) -> MapOptions {
         MapOptions { cancel: self.sources.world.cancel(), ..MapOptions::default() }
     }
@@ -86,7 +84,6 @@ impl Look<'_> {
         }
     }
 
-    /// Whether a library is a complete built-in one, which can make any circuit.
     fn is_whole(&self, library: &str) -> bool {
         let declared = self.program.library(library);
         declared.is_none_or(|declared| {
@@ -95,7 +92,6 @@ impl Look<'_> {
         })
     }
 
-    /// Tries to map a circuit onto a library that cannot make everything.
     fn circuit(&mut self, circuit: &Instance, library: &str, place: Span) {
         if self.is_whole(library) {
             return;

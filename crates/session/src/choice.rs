@@ -9,14 +9,12 @@ use nbc_circuit::is_same_instance;
 /// A choice of a circuit. The source decides what is `None`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Choice {
-    /// Such as `adder` or `adder[8]`.
     pub circuit: Option<String>,
     pub swarm: Option<String>,
 }
 
 impl Checked {
-    /// The chosen circuit, that of the chosen swarm, or else the last circuit of the source that is not an environment.
-    /// Missing parameters come from its swarm or its test.
+    /// The chosen circuit, that of the chosen swarm, or else the last one of the source that is not an environment.
     pub fn circuit(&self, choice: &Choice) -> Result<Instance, Diagnostics> {
         match (&choice.circuit, &choice.swarm) {
             (Some(circuit), _) => self.named(circuit),
@@ -28,7 +26,6 @@ impl Checked {
         }
     }
 
-    /// Tests by their title, their circuit or one of its swarms.
     pub fn tests<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a CircuitTest> {
         let is_called = move |test: &&CircuitTest| {
             test.title == name
@@ -39,7 +36,6 @@ impl Checked {
         self.program.tests.iter().filter(is_called)
     }
 
-    /// Simulations by their swarm or its circuit.
     pub fn simulations<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Simulation> {
         let is_called =
             move |simulation: &&Simulation| simulation.swarm == name || simulation.circuit.to_string() == name;
@@ -54,7 +50,6 @@ impl Checked {
         named.map_err(|fault| Diagnostics { list: vec![fault], sources })
     }
 
-    /// Fails if a parameter without a default has no number.
     fn with_parameters(&self, named: Instance) -> Result<Instance, Diagnostic> {
         let parameters = self.program.circuit(&named.circuit).map_or(&[][..], |circuit| &circuit.parameters);
         let missing = parameters.iter().skip(named.arguments.len()).find(|parameter| parameter.default.is_none());
@@ -99,7 +94,6 @@ pub(super) fn swarms_of<'p>(program: &'p Program, circuit: &Instance) -> Vec<&'p
     program.swarms.iter().filter(|swarm| is_same_instance(program, &swarm.circuit, circuit)).collect()
 }
 
-/// Fails if several swarms are declared for a circuit and none is chosen.
 pub fn check_swarm_is_clear(program: &Program, circuit: &Instance, chosen: Option<&str>) -> Result<(), Diagnostic> {
     match (chosen, &swarms_of(program, circuit)[..]) {
         (None, [first, second, ..]) => Err(wording::several_swarms(&circuit.to_string(), [&first.name, &second.name])),

@@ -21,7 +21,6 @@ pub struct Compiled {
     pub mapping: Mapping,
     pub timing: Timing,
     pub assembly: Assembly,
-    /// Robots with errors or a thin margin.
     pub weak_robots: Vec<WeakRobot>,
     pub warnings: Vec<Diagnostic>,
 }
@@ -71,7 +70,6 @@ fn permit(netlist: &Netlist, limit: Limit, place: Span) -> Result<(), Vec<Diagno
     limit.permit(netlist.cells().count() as u64).map_err(|over| vec![over.at(place)])
 }
 
-/// `gates` limits the size of the source.
 pub(super) fn map(
     source: Netlist,
     plan: &Plan,
@@ -91,7 +89,6 @@ pub(super) fn map(
     }
 }
 
-/// Maps the part of a planned circuit that drives the net declared at `net`.
 pub(super) fn map_net(
     program: &Program,
     plan: &Plan,
@@ -131,7 +128,6 @@ pub(super) fn compile(
     Ok(Compiled { plan, mapping, timing, assembly, weak_robots, warnings })
 }
 
-/// Gives the ports of a swarm their declared enumerations.
 fn name_values(program: &Program, circuit: &Instance, assembly: &mut Assembly) {
     let Some(circuit) = program.circuit(&circuit.circuit) else { return };
     for net in &circuit.nets[..circuit.inputs + circuit.outputs] {

@@ -14,7 +14,6 @@ pub(super) fn declared_file(program: &Program, name: &str) -> Result<(), Diagnos
     if memories.any(|memory| memory.contents == Some(place)) { Ok(()) } else { Err(wording::unused_file(name)) }
 }
 
-/// The words of a memory at the start; none without a file. `files` replace declared files, by name and path.
 pub(super) fn first_words(
     world: &dyn SourceWorld,
     program: &Program,
@@ -40,7 +39,6 @@ pub(super) fn first_words(
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Words {
     All(Vec<u128>),
-    /// More words than the memory has.
     TooMany(usize),
 }
 

@@ -25,7 +25,6 @@ type Readings = BTreeMap<Vec<String>, (VerilogFiles, VerilogModules)>;
 
 struct Known {
     checked: Arc<Checked>,
-    /// Identities of the files and folders that were read.
     asked: BTreeSet<String>,
 }
 
@@ -99,12 +98,10 @@ impl Documents {
         self.known.contains_key(path)
     }
 
-    /// Identities of the files and folders that the result depends on, including missing ones.
     pub(super) fn asked(&self, path: &str) -> impl Iterator<Item = &str> {
         self.known.get(path).into_iter().flat_map(|known| &known.asked).map(String::as_str)
     }
 
-    /// Drops the results that depend on a file or on the listing of its folder.
     fn forget(&mut self, path: &str) {
         let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
         let changed = [path, folder].map(|path| self.world.identity(path));
@@ -112,7 +109,6 @@ impl Documents {
     }
 }
 
-/// A world that records what was read, and reads no Verilog twice.
 struct RecordingWorld<'a> {
     world: &'a dyn SourceWorld,
     asked: RefCell<BTreeSet<String>>,
@@ -214,7 +210,6 @@ mod tests {
         assert_eq!(documents.checked("a.nb").diagnostics, []);
     }
 
-    /// Counts its readings, the first of which may be cancelled.
     struct Translator {
         world: MemoryWorld,
         count: Arc<AtomicUsize>,

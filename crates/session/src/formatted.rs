@@ -10,7 +10,6 @@ pub struct Formatted {
     pub is_canonical: bool,
 }
 
-/// Formats a source that can be parsed; names and widths may be wrong.
 pub(super) fn format(world: &dyn SourceWorld, path: &str) -> Result<Formatted, Diagnostics> {
     let mut sources = Sources::default();
     let file = check::open(world, path, &mut sources)?;

@@ -11,15 +11,13 @@ use nbc_swarm::{RowHold, STEADY_CYCLES, Settling, resting_outputs};
 /// Outputs are judged over [`STEADY_CYCLES`], so a row lasts longer than its robots need to settle.
 const STEADY_EXTRA: usize = STEADY_CYCLES - 1;
 
-/// Each row is held until every robot has settled for any delays, but at most as long as static timing requires.
 pub(super) fn row_holds(rows: &[TestRow], netlist: &Netlist, compiled: &Compiled) -> Vec<RowHold> {
     let holds = holds(rows, compiled, compiled.plan.hold);
     let row_hold = |([hold, needed], rests): ([usize; 2], Vec<bool>)| RowHold { hold, needed, rests };
     holds.into_iter().zip(resting_outputs(rows, netlist)).map(row_hold).collect()
 }
 
-/// For each row, the cycles for which it is held, and those that its robots need. `usual` applies to rows without a
-/// hold of their own.
+/// For each row, the cycles for which it is held, and those that its robots need.
 fn holds(rows: &[TestRow], compiled: &Compiled, usual: Hold) -> Vec<[usize; 2]> {
     let window = compiled.plan.window;
     let bound = (compiled.timing.hold + window - 1) as usize;
@@ -37,8 +35,7 @@ fn holds(rows: &[TestRow], compiled: &Compiled, usual: Hold) -> Vec<[usize; 2]> 
     rows.iter().enumerate().map(hold).collect()
 }
 
-/// Cycles that suffice for every row without a hold of its own. A longer hold may show that a later row needs more,
-/// because the row before it has settled.
+/// Suffices for rows without a hold of their own. A longer hold may show that a later row needs more.
 pub(super) fn sufficient(rows: &[TestRow], compiled: &Compiled) -> usize {
     let mut cycles = 1;
     loop {
@@ -52,7 +49,6 @@ pub(super) fn sufficient(rows: &[TestRow], compiled: &Compiled) -> usize {
     }
 }
 
-/// One warning for the swarm's hold, with the `sufficient` one, and one for each row with a hold of its own.
 pub(super) fn warnings(
     test: &CircuitTest,
     rows: &[TestRow],

@@ -21,7 +21,6 @@ pub struct LearningRequest<'a> {
 }
 
 impl LearningRequest<'_> {
-    /// The command that learns the same again.
     pub fn command(&self) -> String {
         let LearnOptions { gates, hold_out, group, seed } = self.options;
         let targets: String = self.outputs.iter().map(|port| format!(" --target {port}")).collect();
@@ -74,7 +73,6 @@ impl Learning {
         Ok(Self { circuit: circuit.to_owned(), inputs, outputs, learner })
     }
 
-    /// A circuit with the ports of the learned one, to check whether a format can hold it.
     pub fn outline(&self) -> Design {
         let bits = |ports: &[Column]| ports.iter().flat_map(Column::bits).collect::<Vec<_>>();
         let outputs: Vec<_> = bits(&self.outputs).into_iter().map(|output| (output, Literal::FALSE)).collect();

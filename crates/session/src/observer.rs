@@ -12,12 +12,10 @@ pub trait Observer {
         let _ = (part, parts);
     }
 
-    /// Called after each part.
     fn progress(&mut self, done: u64, all: u64) {
         let _ = (done, all);
     }
 
-    /// Called after each part; true stops the work.
     fn is_cancelled(&self) -> bool {
         false
     }
@@ -29,8 +27,7 @@ pub trait Observer {
 
 /// Simulates the cycles of a test's swarm; `()` does so at once.
 pub trait CycleRunner {
-    /// Begins or continues the next cycle of a swarm that was made for `cycles`. Pending while others simulate parts of
-    /// it.
+    /// Begins or continues a cycle of a swarm made for `cycles`; pending while others simulate parts of it.
     fn step(
         &mut self,
         swarm: &mut LiveSwarm,
@@ -46,12 +43,10 @@ impl CycleRunner for () {
     }
 }
 
-/// Saves the swarms of long tests, to continue them later.
 pub trait SwarmKeeper {
     /// The saved swarm of a task, if any. All that follows is of this task.
     fn begin(&mut self, task: &SwarmTask) -> Option<KeptSwarm>;
 
-    /// Called after each cycle.
     fn is_due(&mut self) -> bool;
 
     fn keep(&mut self, kept: &KeptSwarm);

@@ -12,7 +12,6 @@ use nbc_swarm::image_displacements;
 pub struct Occlusion {
     recognition: Recognition,
     size: ImageSize,
-    /// Of each pixel over all images; it covers the pixel.
     mean: Vec<f64>,
     /// Distance in the right direction before each uncovered image, in voxels.
     plain: Vec<f64>,
@@ -34,7 +33,6 @@ impl Occlusion {
         (self.losses.len() as u64, self.mean.len() as u64)
     }
 
-    /// Covers the next pixel; returns whether there are more.
     pub fn advance(&mut self) -> bool {
         let pixel = self.losses.len();
         let body = &self.recognition.elites[0].1.body;

@@ -3,17 +3,13 @@
 use nbc_base::model::Library;
 use nbc_circuit::{CancelFlag, Effort, MapOptions, MappingObjective};
 
-/// The default folder of evolution runs.
 pub const RUNS: &str = "out";
 
 /// Options of compiling a circuit to a swarm. The default is what the source declares.
 #[derive(Clone, Debug)]
 pub struct CompileOptions {
-    /// Needed if several are declared for the circuit.
     pub swarm: Option<String>,
-    /// Replace the declared robots.
     pub robots: Option<Library>,
-    /// Names of robots to leave out.
     pub without: Vec<String>,
     pub objective: MappingObjective,
     pub effort: Effort,
@@ -21,7 +17,6 @@ pub struct CompileOptions {
     pub files: Vec<(String, String)>,
     /// The folder of evolution runs; the robots of `from: NAME` are in its `NAME/robots`.
     pub runs: String,
-    /// Ends the search in mapping early.
     pub cancel: CancelFlag,
 }
 

@@ -25,7 +25,6 @@ impl Compiled {
 }
 
 impl RunReport {
-    /// A page with every simulated swarm, its verdict and a player.
     pub fn page(&self, source: &str, scheme: Scheme) -> String {
         let tests = self.tests.iter();
         let tests = tests.filter_map(|run| Some((SwarmOutcome::Test(&run.verdict), run.swarm.as_ref()?)));

@@ -11,19 +11,16 @@ use nbc_lang::check::DEFAULT_LIBRARY;
 #[derive(Clone, Debug)]
 pub struct Plan {
     pub circuit: Instance,
-    /// `None` if the source declares none for the circuit.
     pub swarm: Option<String>,
     pub library: Library,
     /// For rows without a hold of their own.
     pub hold: Hold,
-    /// Cycles over which an output is measured.
     pub window: u32,
     pub registers: RegisterStyle,
     pub waves: WaveTimes,
     pub world: NamedWorld,
 }
 
-/// One plan for each declared swarm, only the chosen one, or that of the default library.
 pub(super) fn plans(
     sources: RobotSources<'_>,
     program: &Program,
@@ -73,7 +70,6 @@ pub(super) fn of_swarm(
     })
 }
 
-/// The robots of `options`, or of a declared library or the default one, without those that are left out.
 pub(super) fn robots(
     sources: RobotSources<'_>,
     program: &Program,

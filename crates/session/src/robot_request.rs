@@ -17,7 +17,6 @@ use nbc_swarm::{Executor, MEASUREMENT_COST, Measurement, RobotCandidate, Selecte
 #[derive(Clone, Debug)]
 pub enum RobotRequest {
     Behavior(Behavior, Vec<RobotCandidate>),
-    /// A body with any behavior.
     Own(Box<OwnBody>),
 }
 
@@ -28,13 +27,11 @@ pub struct OwnBody {
     pub body: Body,
     pub provenance: Provenance,
     pub genotype: Option<Genotype>,
-    /// The highest accepted error rate.
     pub max_error: f64,
 }
 
 impl RobotRequest {
-    /// Requests for these behaviors of runs, or for the usual ones, in order of their functions. An elite in an archive
-    /// of classes stands for all behaviors of its class.
+    /// An elite in an archive of classes stands for all behaviors of its class.
     #[cfg(feature = "disk")]
     pub fn of_runs<'a>(
         runs: impl IntoIterator<Item = &'a Checkpoint>,
@@ -73,7 +70,6 @@ impl RobotRequest {
         requests.into_iter().map(|(behavior, found)| Self::Behavior(behavior, found)).collect()
     }
 
-    /// The amount of work, as [`Selection::cost`].
     pub fn cost(&self, selection: &Selection) -> u64 {
         match self {
             Self::Behavior(_, candidates) => selection.cost(candidates.len()),
@@ -81,8 +77,7 @@ impl RobotRequest {
         }
     }
 
-    /// Measures candidates and selects the best robot. `observe` receives the work done; `run` is passed to the
-    /// executor. `None` if the work was stopped.
+    /// `observe` receives the work done; `run` is passed to the executor. `None` if the work was stopped.
     pub fn select(
         &self,
         selection: &Selection,
@@ -131,7 +126,6 @@ pub fn behavior(word: &str) -> Result<Behavior, String> {
 }
 
 impl OwnBody {
-    /// A body without a run. Its robot may have errors.
     pub fn by_hand(name: String, body: Body) -> Self {
         let provenance = Provenance {
             program: nbc_base::PROGRAM.to_owned(),

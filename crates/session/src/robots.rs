@@ -8,7 +8,6 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Behavior, Library, LibrarySource, Origin};
 use nbc_base::source::SourceWorld;
 
-/// Built-in libraries, each read at its first use.
 #[derive(Default)]
 pub(super) struct BuiltIn {
     shipped: OnceLock<Library>,
@@ -33,7 +32,6 @@ pub(super) struct RobotSources<'a> {
 }
 
 impl<'a> RobotSources<'a> {
-    /// `runs` is the folder of evolution runs.
     pub(super) fn library(self, declared: &LibrarySource, runs: &str) -> Result<Library, Vec<Diagnostic>> {
         let mut library = match &declared.from {
             Origin::Shipped => self.built_in.shipped().clone(),
@@ -65,7 +63,6 @@ impl<'a> RobotSources<'a> {
         Ok(library)
     }
 
-    /// An evolution may not have run yet.
     pub(super) fn has_run(self, declared: &LibrarySource, runs: &str) -> bool {
         match &declared.from {
             Origin::Evolution(name) => self.world.list(&robots_of_run(runs, name)).is_ok(),

@@ -44,7 +44,6 @@ impl Session {
         Ok(report)
     }
 
-    /// Runs a test once for each swarm that is declared for its circuit, or once at the level of logic.
     pub fn test(
         &self,
         checked: &Checked,
@@ -57,7 +56,6 @@ impl Session {
         Ok(running.into_runs())
     }
 
-    /// A test to be advanced in portions.
     pub fn begin_test(
         &self,
         checked: &Checked,
@@ -87,7 +85,6 @@ mod tests {
     const TEXT: &str = "circuit f(a) -> (q) { q = not a }\nswarm one { circuit: f }\nswarm two { circuit: f }\n\
                         test f {\n a | q\n 0 | 1 for 3 cycles\n}\nsimulate one with schedule (a) { 0 for 3 cycles }\n";
 
-    /// Stops the work after `most` steps.
     struct RecordingObserver {
         told: Vec<(u64, u64)>,
         parts: Vec<(usize, usize)>,

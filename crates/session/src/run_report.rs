@@ -23,7 +23,6 @@ impl<'a> RunList<'a> {
         Self { tests: program.tests.iter().collect(), simulations: program.simulations.iter().collect() }
     }
 
-    /// Those of the chosen circuit or swarm. `only` is a name that tests and simulations have.
     pub fn chosen(checked: &'a Checked, only: Option<&'a str>, choice: &Choice) -> Result<Self, Diagnostics> {
         let chosen = if *choice == Choice::default() { None } else { Some(checked.circuit(choice)?) };
         let is_chosen = |circuit: &Instance| {
@@ -61,15 +60,12 @@ impl<'a> RunList<'a> {
 /// Results of tests and simulations. One that was cancelled has the results so far.
 #[derive(Clone, Debug, Default)]
 pub struct RunReport {
-    /// Each once for each swarm of its circuit.
     pub tests: Vec<TestRun>,
     pub simulations: Vec<SimulationRun>,
-    /// Tests and simulations that were cancelled or not begun.
     pub left: usize,
 }
 
 impl RunReport {
-    /// Whether every test passed, and no robot of a simulation failed.
     pub fn passed(&self) -> bool {
         self.tests.iter().all(|test| test.verdict.passed) && self.simulations.iter().all(SimulationRun::passed)
     }

@@ -5,20 +5,17 @@ use nbc_base::source::Span;
 use nbc_circuit::properties::{AndLiteral, StepClock, SystemRun, TransitionSystem};
 use nbc_circuit::{Logic, Netlist};
 
-/// How the inputs of a system are those of circuits.
 #[derive(Clone, Debug)]
 pub(super) struct RunPorts {
     /// Input bits of the circuit without the clock.
     pub(super) ports: Vec<usize>,
-    /// The literal of the system for each of them.
     pub(super) given: Vec<AndLiteral>,
     /// Each step after the first is an edge of it.
     pub(super) clock: Option<StepClock>,
 }
 
 impl RunPorts {
-    /// The rows of a run with the outputs of a circuit. The row before an edge checks nothing; if the clock rises, it
-    /// is the first half of a pulse.
+    /// The row before an edge checks nothing; if the clock rises, it is the first half of a pulse.
     pub(super) fn rows(
         &self,
         circuit: &Netlist,

@@ -32,13 +32,11 @@ impl RunningTest {
         Self { physics, cases: cases.into_iter(), running: None, runs: Vec::new(), before: 0, all }
     }
 
-    /// Does a portion of the work: a cycle of a swarm, or some rows at the level of logic. Returns false after the last
-    /// case and after a request to stop.
+    /// A cycle of a swarm, or some rows of logic. Returns false after the last case and after a request to stop.
     pub fn advance(&mut self, observer: &mut dyn Observer) -> bool {
         self.advance_with(observer, &mut ())
     }
 
-    /// The same, with the cycles of swarms simulated by a runner.
     pub fn advance_with(&mut self, observer: &mut dyn Observer, runner: &mut dyn CycleRunner) -> bool {
         let Some(case) = &mut self.running else {
             // A circuit that was compiled after a request to stop may have more robots than needed.
@@ -55,7 +53,6 @@ impl RunningTest {
         true
     }
 
-    /// Whether all cases were completed.
     pub fn is_complete(&self) -> bool {
         let is_over = self.running.is_none() && self.cases.len() == 0;
         is_over && self.runs.iter().all(|run| run.end == RunEnd::Complete)
@@ -70,7 +67,6 @@ pub(super) struct RunningCase {
     test: Arc<CircuitTest>,
     work: u64,
     subject: Running,
-    /// On the rows at the level of logic.
     verdicts: Vec<RowVerdict>,
     fault: Option<Diagnostic>,
 }
@@ -84,7 +80,6 @@ enum Running {
 }
 
 impl RunningCase {
-    /// Starts with the swarm that the observer has saved of it, if any.
     pub(super) fn new(case: TestCase, physics: &Physics, observer: &mut dyn Observer) -> Self {
         let work = case.work();
         let subject = match case.subject {
@@ -105,7 +100,6 @@ impl RunningCase {
         Self { test: case.test, work, subject, verdicts: Vec::new(), fault: None }
     }
 
-    /// Does a portion of the work. Returns how the run ended, if it did.
     pub(super) fn advance(&mut self, observer: &mut dyn Observer, runner: &mut dyn CycleRunner) -> Option<RunEnd> {
         let (done, all) = match &mut self.subject {
             Running::Robots(timed, swarm, ends) => {
@@ -166,7 +160,6 @@ impl RunningCase {
     }
 }
 
-/// Performs some steps of a script, and judges the last row of each.
 fn perform(script: &mut Performance, test: &CircuitTest, verdicts: &mut Vec<RowVerdict>) -> Result<(), Diagnostic> {
     for _ in 0..Settled::ROWS {
         let Some(performed) = script.step()? else { break };

@@ -8,16 +8,14 @@ use nbc_base::source::{SourceFile, Sources, Span};
 /// In env steps.
 const MAX_STEPS: u64 = 10_000_000;
 
-/// What is shown, the place of its name, and the env steps.
 type Entry<T> = (T, Span, u32);
 
-/// Reads entries with blanks between them: a bit for each stimulus, `*`, and a number of cycles or env steps. Messages
-/// call the text `name`.
+/// Entries between blanks: a bit for each stimulus, `*`, and a number of cycles or env steps. Messages say `name`.
 pub fn read_schedule(name: &str, text: &str, stimuli: usize) -> Result<Schedule, Diagnostics> {
     read(name, text, |file| parse(file, stimuli))
 }
 
-/// Reads a schedule whose entries name sets of images of this size. Each image is shown for the time of the entry.
+/// Each image of a set is shown for the time of its entry.
 pub fn read_image_schedule(
     name: &str,
     text: &str,
@@ -58,7 +56,6 @@ fn parse_images(file: &SourceFile, images: &[NamedImages], size: ImageSize) -> R
     Ok(shown)
 }
 
-/// `shown` is the number of images in an entry.
 fn parse_entries<T>(
     file: &SourceFile,
     kind: ScheduleKind,
@@ -152,7 +149,6 @@ mod tests {
 
     type Messages = Vec<(String, String)>;
 
-    /// The spells, or the messages with the texts at their places.
     fn read(stimuli: usize, text: &str) -> Result<Vec<(String, u32)>, Messages> {
         let shown = |spell: Spell| (spell.pattern.digits(stimuli), spell.steps);
         match read_schedule("--schedule", text, stimuli) {

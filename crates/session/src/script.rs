@@ -21,7 +21,6 @@ pub(super) struct Performance {
     /// The next step, and how often it was repeated.
     next: (usize, usize),
     pub(super) printed: String,
-    /// Set if the environment is watched.
     watched: Option<EnvironmentRun>,
 }
 
@@ -32,13 +31,11 @@ enum Performer {
     Free(Box<Logic>),
 }
 
-/// The environment of a test, and how its ports are connected.
 #[derive(Clone, Debug)]
 struct Beside {
     environment: Environment,
     name: String,
     memories: Vec<(String, usize)>,
-    /// The source of each of its input bits.
     sees: Vec<Seen>,
     /// Pairs of an output bit, and the circuit's input bit that it drives.
     gives: Vec<(usize, usize)>,
@@ -59,7 +56,6 @@ pub(super) struct PerformedRow {
     pub(super) is_last: bool,
 }
 
-/// The environment of a test at the level of logic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EnvironmentRun {
     pub name: String,
@@ -78,7 +74,6 @@ pub struct MemoryContents {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EnvironmentRow {
-    /// Written as the row begins.
     pub printed: Option<char>,
     /// For each memory, the addresses that are read in the row, and the words that are stored as it begins.
     pub accesses: Vec<MemoryAccess>,
@@ -95,7 +90,6 @@ pub(super) fn environment(
 }
 
 impl Performance {
-    /// `files` replace declared files, by name and path.
     pub(super) fn new(
         world: &dyn SourceWorld,
         program: &Program,
@@ -120,7 +114,6 @@ impl Performance {
         Ok(Self { script: script.clone(), circuit, beside, next: (0, 0), printed: String::new(), watched: None })
     }
 
-    /// What the environment does in the first rows; `None` without an environment.
     pub(super) fn watch(mut self, rows: usize) -> Result<Option<EnvironmentRun>, Diagnostic> {
         self.watched = self.beside.as_ref().map(Beside::at_start);
         let is_long = |run: &Option<EnvironmentRun>| run.as_ref().is_none_or(|run| run.rows.len() >= rows);
@@ -163,7 +156,6 @@ impl Performance {
         Ok(Some(performed))
     }
 
-    /// A row before the edge of the clock: the circuit and its environment answer each other until nothing changes.
     fn settle(&mut self, mut row: TestRow) -> Result<PerformedRow, Diagnostic> {
         for _ in 0..MOST_ANSWERS {
             if let Some(beside) = &self.beside {
@@ -309,7 +301,6 @@ impl Beside {
         self.environment.apply(&seen)
     }
 
-    /// The character that is written at the edge of the clock.
     fn printed(&self) -> Option<char> {
         let first = self.text?;
         let outputs: Vec<bool> = self.environment.outputs().skip(first).take(9).collect();

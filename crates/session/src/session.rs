@@ -32,8 +32,7 @@ pub struct Session {
 }
 
 impl Session {
-    /// Length of the ground of [`Session::swarm`]: enough for a robot that moves by its own width in each of this many
-    /// cycles.
+    /// Ground of [`Session::swarm`]: enough for a robot that moves by its own width in each of so many cycles.
     pub const LIVE_CYCLES: usize = swarm_run::LIVE_CYCLES;
 
     pub fn new(world: impl SourceWorld + Send + Sync + 'static) -> Self {
@@ -57,13 +56,11 @@ impl Session {
         self
     }
 
-    /// Sets the text of a source, which hides the file of the world. A text with a lower revision than the last one is
-    /// ignored.
+    /// Hides the file of the world. A text with a lower revision than the last one is ignored.
     pub fn update(&mut self, path: &str, revision: u64, text: impl Into<String>) {
         self.documents.update(path, revision, text);
     }
 
-    /// Forgets what was read of `path`, and the text set by [`Session::update`].
     pub fn close(&mut self, path: &str) {
         self.documents.close(path);
     }
@@ -73,17 +70,15 @@ impl Session {
         self.documents.checked(path)
     }
 
-    /// Whether [`Session::checked`] has the result already. A cancelled check does not count.
+    /// A cancelled check does not count.
     pub fn is_checked(&self, path: &str) -> bool {
         self.documents.is_known(path)
     }
 
-    /// Files and folders that the last check of a source read or looked for.
     pub fn dependencies(&self, path: &str) -> Vec<String> {
         self.documents.asked(path).map(str::to_owned).collect()
     }
 
-    /// A checked source without errors.
     pub fn open(&mut self, path: &str) -> Result<Arc<Checked>, Diagnostics> {
         let checked = self.checked(path);
         if checked.has_errors() { Err(checked.fail(checked.diagnostics.clone())) } else { Ok(checked) }
@@ -93,7 +88,6 @@ impl Session {
         formatted::format(self.documents.world(), path)
     }
 
-    /// The robots that come with the program.
     pub fn shipped(&self) -> &Library {
         self.documents.built_in().shipped()
     }
@@ -119,7 +113,7 @@ impl Session {
         Ok(nbc_swarm::prefer(robots, options.objective))
     }
 
-    /// An evolution with the robots of the library that it begins with. `runs` is the folder of other evolutions' runs.
+    /// `runs` is the folder of other evolutions' runs.
     pub fn started(&self, checked: &Checked, evolution: &Evolution, runs: &str) -> Result<Evolution, Diagnostics> {
         let started = start_bodies::started(self.sources(checked), &checked.program, evolution, runs);
         started.map_err(|faults| checked.fail(faults))
@@ -138,7 +132,6 @@ impl Session {
         mapping.map_err(|faults| checked.fail(faults))
     }
 
-    /// Maps the part of a circuit that drives the net declared at `net`.
     pub fn map_net(
         &self,
         checked: &Checked,
@@ -227,12 +220,10 @@ impl Session {
         Ok(simulation::run(&self.physics, simulation, compiled, observer))
     }
 
-    /// A swarm at its start, to be stepped a cycle at a time.
     pub fn swarm(&self, compiled: &Compiled) -> LiveSwarm {
         self.physics.swarm(compiled, Self::LIVE_CYCLES)
     }
 
-    /// Simulates a part of a live swarm's run again, with its poses recorded.
     pub fn replay(&self, excerpt: &Excerpt, observer: &mut dyn Observer) -> SimulationRun {
         replay::replay(&self.physics, excerpt, observer)
     }
@@ -250,7 +241,6 @@ impl Session {
     }
 }
 
-/// As [`Session::run`], for a file of the disk.
 #[cfg(feature = "disk")]
 pub fn run_file(path: impl AsRef<std::path::Path>, options: &CompileOptions) -> Result<RunReport, Diagnostics> {
     Session::new(crate::store::DiskWorld).run(&path.as_ref().to_string_lossy(), options, &mut ())

@@ -21,7 +21,6 @@ pub struct SimulationRun {
 }
 
 impl SimulationRun {
-    /// Whether every robot could be simulated.
     pub fn passed(&self) -> bool {
         self.result.fault.is_none()
     }

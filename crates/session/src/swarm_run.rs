@@ -7,7 +7,6 @@ use crate::observer::{CycleRunner, Observer};
 use nbc_sim::Simulator;
 use nbc_swarm::{Assembly, LiveSwarm, Room, SwarmTask, SwarmTrace};
 
-/// Length of the ground of a live swarm: enough for a robot that moves by its own width in each of this many cycles.
 pub(super) const LIVE_CYCLES: usize = 1000;
 
 #[derive(Clone, Debug)]
@@ -25,12 +24,10 @@ pub(super) struct Physics {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunEnd {
     Complete,
-    /// The results cover the part before.
     Cancelled,
 }
 
 impl Physics {
-    /// With ground for that many cycles.
     pub fn swarm(&self, compiled: &Compiled, cycles: usize) -> LiveSwarm {
         LiveSwarm::new(&self.simulator, &compiled.assembly, cycles, compiled.plan.window as usize, self.poses)
     }
@@ -56,7 +53,6 @@ impl DrivenSwarm {
         Self { swarm, inputs, done: 0 }
     }
 
-    /// Continues with the swarm that the observer has saved, if any.
     pub(super) fn resume(&mut self, compiled: &Compiled, observer: &mut dyn Observer) {
         let Some(keeper) = observer.keeper() else { return };
         let Compiled { assembly, plan, .. } = compiled;

@@ -13,7 +13,6 @@ use nbc_circuit::{CellKind, CellLibrary, MapOptions, MappingObjective, Netlist, 
 pub struct SynthesisOptions {
     pub cells: CellLibrary,
     pub map: MapOptions,
-    /// Whether registers become cells.
     pub expand: bool,
     /// Functions for which to count the cells that a robot would save.
     pub what_if: Vec<Function>,
@@ -87,14 +86,12 @@ pub fn cell_library(names: &[String]) -> Result<CellLibrary, Diagnostic> {
     })
 }
 
-/// One robot for each function, by the goal.
 pub fn robot_cells(robots: Library, objective: MappingObjective) -> CellLibrary {
     nbc_swarm::cells(&nbc_swarm::prefer(robots, objective))
 }
 
 struct Made {
     design: Design,
-    /// With its registers, if they are expanded.
     source: Netlist,
     result: Design,
     unproved_registers: bool,

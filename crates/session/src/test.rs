@@ -24,11 +24,9 @@ use nbc_swarm::{Level, RowHold, SwarmBits, SwarmTask, TestVerdict, WorldTrial};
 /// Swarms of at least this many robots are tested at the level of logic unless physics is requested.
 const LARGE: usize = 40;
 
-/// Circuits of at least this many gates are not compiled to count robots: no library makes them of fewer than
-/// [`LARGE`].
+/// Circuits of so many gates are not compiled to count robots: no library makes them of fewer than [`LARGE`].
 const SURELY_LARGE: usize = 10 * LARGE;
 
-/// Limit on the rows of a script in physics.
 const MOST_PHYSICAL_ROWS: usize = 200_000;
 
 /// How a test is run.
@@ -52,11 +50,9 @@ pub struct TestRun {
     pub warnings: Vec<Diagnostic>,
 }
 
-/// The first rows of a test as inputs of its swarm.
 #[derive(Clone, Debug)]
 pub struct PhysicalTest {
     pub compiled: Compiled,
-    /// Input bits of each cycle.
     pub inputs: Vec<Vec<bool>>,
     /// The cycles after which each row has passed.
     pub ends: Vec<usize>,
@@ -74,13 +70,11 @@ pub(super) enum TestSubject {
     Gates(Netlist, Arc<[TestRow]>),
     /// Gates whose rows depend on what they do.
     Script(Box<Performance>),
-    /// Gates that are compared with others for ever.
     Ever(Box<Equivalence>),
     Robots(Box<TimedTest>),
 }
 
-/// One case for each declared swarm in each world that the test names, or one at the level of logic. A test for ever is
-/// always at the level of logic.
+/// One for each declared swarm in each world of the test, or one at the level of logic, as for each test for ever.
 pub(super) fn cases(
     sources: RobotSources<'_>,
     program: &Program,
@@ -158,7 +152,6 @@ fn permit_cycles(test: &CircuitTest, cycles: u64) -> Result<(), Vec<Diagnostic>>
     Limit::CycleBits.permit(cycles.saturating_mul(bits)).map_err(|over| vec![over.at(test.span)])
 }
 
-/// `None` for tests without a script.
 fn performance(
     sources: RobotSources<'_>,
     program: &Program,
@@ -170,7 +163,6 @@ fn performance(
     Performance::new(sources.world, program, test, script, netlist, &options.files).map(Some)
 }
 
-/// What the environment does in the first rows, at the level of logic; `None` without an environment.
 pub(super) fn environment(
     sources: RobotSources<'_>,
     program: &Program,
@@ -183,7 +175,7 @@ pub(super) fn environment(
     performance.map_or(Ok(None), |performance| performance.watch(rows)).map_err(|fault| vec![fault])
 }
 
-/// The rows in physics, and the environment's text. All outputs are checked in the rows of a script.
+/// All outputs are checked in the rows of a script.
 fn physical_rows(
     program: &Program,
     test: &CircuitTest,
@@ -244,7 +236,6 @@ fn short_holds(
 }
 
 impl TestRun {
-    /// `None` at the level of logic.
     pub fn world_trial(&self) -> Option<WorldTrial> {
         let SwarmRun { compiled, trace } = self.swarm.as_ref()?;
         let window = compiled.plan.window as usize;
@@ -289,12 +280,10 @@ impl TestCase {
         self.timed()?.compiled.plan.swarm.as_deref()
     }
 
-    /// `None` at the level of logic.
     pub fn world_name(&self) -> Option<&str> {
         Some(&self.timed()?.compiled.plan.world.name)
     }
 
-    /// `None` at the level of logic.
     pub fn into_physics(self, rows: usize) -> Option<PhysicalTest> {
         let TestSubject::Robots(timed) = self.subject else { return None };
         let (inputs, ends) = (timed.inputs(rows), timed.ends(rows));
@@ -322,15 +311,13 @@ impl TestCase {
         self.timed().map_or(0, |timed| timed.compiled.assembly.members.len())
     }
 
-    /// The simulation of its swarm, to be done elsewhere; `None` at the level of logic.
     pub fn task(&self) -> Option<SwarmTask> {
         let timed = self.timed()?;
         let Compiled { assembly, plan, .. } = &timed.compiled;
         Some(SwarmTask::of(assembly, timed.inputs(timed.rows.len()), plan.window as usize))
     }
 
-    /// Ends a test whose swarm was simulated elsewhere; there is no trace. Panics if the bits belong to another swarm,
-    /// or the test has none.
+    /// There is no trace. Panics if the bits belong to another swarm, or the test has none.
     pub fn judge(self, bits: &SwarmBits) -> TestRun {
         let timed = self.timed().expect("a test in physics");
         let inputs = timed.inputs(timed.rows.len());
@@ -341,8 +328,7 @@ impl TestCase {
     }
 }
 
-/// The rows of a test without a script. A test over all inputs, of which the checker allows few, has those of its
-/// reference.
+/// A test over all inputs, of which the checker allows few, has the rows of its reference.
 fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<Diagnostic>> {
     let reference = match &test.stimulation {
         Stimulation::Rows(rows) => return Ok(rows.clone()),

@@ -10,8 +10,7 @@ use nbc_circuit::{MapOptions, Netlist, Proof};
 /// In cycles, if the swarm names none.
 const BEATS: [u32; 2] = [1, 2];
 
-/// The proved wave machine of a circuit with the smallest product of robots and cycles of a step. Panics if it does not
-/// make the steps of the circuit, which is a fault of the compiler.
+/// The smallest product of robots and cycles of a step. Panics if a machine does not make the steps of the circuit.
 pub(super) fn map_waves(
     source: Netlist,
     library: &Library,
@@ -40,9 +39,8 @@ pub(super) fn map_waves(
     Ok(Mapping { source, netlist, cells, proof, kept: Vec::new(), unproved_registers: false, waves })
 }
 
-/// The rows of a test as steps of a wave machine: the first before the first edge of the clock, each other one edge. A
-/// machine without state makes a step of each row. `clock` is an input, and whether it makes a step when it rises;
-/// `step` is the length of a step, if known.
+/// The first row is before the first edge of the clock, each other one edge; without state each row is a step.
+/// `clock` is an input, and whether it makes a step when it rises.
 pub(super) fn steps(
     test: &CircuitTest,
     rows: &[TestRow],

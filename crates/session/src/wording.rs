@@ -129,7 +129,6 @@ pub(super) fn no_test_to_harden(circuit: &str) -> Diagnostic {
         .with_help("hardening runs the tests of the circuit in many worlds")
 }
 
-/// Shows an error of a circuit's mapping at the place that asks for the circuit.
 pub(super) fn for_circuit(error: Diagnostic, place: Span) -> Diagnostic {
     error.with_label(place, "for this circuit")
 }
@@ -140,7 +139,6 @@ pub(super) fn of_library(error: Diagnostic, library: Span, command: Option<&str>
     command.into_iter().fold(error, Diagnostic::with_help)
 }
 
-/// Shows an error of a file at the declaration that names it.
 pub(super) fn of_declared_file(error: Diagnostic, declared: Span) -> Diagnostic {
     error.with_label(declared, "declared here")
 }
@@ -183,7 +181,6 @@ pub(super) fn no_behavior(library: &str, absent: &[Behavior], at: Span) -> Diagn
         .with_help("remove them from `behaviors`; `from: three` has robots of three stimuli")
 }
 
-/// A row after the first in which the clock of a wave machine makes no step.
 pub(super) fn no_edge(clock: &str, rises: bool, at: Span) -> Diagnostic {
     let message = "a wave machine shows new outputs only after an edge of its clock";
     let how = if rises { "`^`" } else { "1 in a row and 0 in the next" };
@@ -191,7 +188,6 @@ pub(super) fn no_edge(clock: &str, rises: bool, at: Span) -> Diagnostic {
         .with_help(format!("only the first row may have no edge; write {how} for `{clock}`"))
 }
 
-/// A row of a wave machine with a hold of its own. A step has `step` cycles, if that is known.
 pub(super) fn hold_in_waves(step: Option<u32>, at: Span) -> Diagnostic {
     let label = match step {
         Some(step) => format!("a step has {}", counted(step as usize, "cycle")),
@@ -216,7 +212,6 @@ pub(super) fn short_hold(hold: usize, needed: usize, path: &[String], at: Span) 
         .with_help(format!("`hold: auto` holds each row until every robot has settled; the slowest path is {path}"))
 }
 
-/// What the entries of a schedule begin with: a pattern of so many stimuli, or the name of a set of images.
 #[derive(Clone, Copy)]
 pub(super) enum ScheduleKind {
     Pattern { stimuli: usize },
@@ -309,14 +304,12 @@ pub(super) fn bad_environment(fault: &EnvironmentFault, at: Span) -> Diagnostic 
     helped(Diagnostic::new(Code::Operands, message, at, "here"), help)
 }
 
-/// A circuit and an environment that never agree.
 pub(super) fn never_agree(at: Span) -> Diagnostic {
     let message = "the circuit and its environment change each other for ever";
     Diagnostic::new(Code::Operands, message, at, "here")
         .with_help("let a register of the environment keep one of the values that go round")
 }
 
-/// A line that is no number, or does not fit into a word.
 pub(super) fn no_word(path: &str, line: usize) -> Diagnostic {
     Diagnostic::without_place(Code::Value, format!("line {line} of `{path}` has no word of the memory"))
         .with_help("a `.hex` file has hexadecimal words, a `.csv` file numbers, a `.bin` file bytes")
@@ -326,7 +319,6 @@ pub(super) fn too_many_words(path: &str, found: usize, room: usize) -> Diagnosti
     Diagnostic::without_place(Code::TooLarge, format!("`{path}` has {found} words, and the memory {room}"))
 }
 
-/// Shows an error in a file's words at the declaration of the file.
 pub(super) fn of_words(error: Diagnostic, declared: Span) -> Diagnostic {
     error.with_label(declared, "here")
 }

@@ -9,12 +9,10 @@ use nbc_swarm::{Robustness, TestVerdict, WorldSample, WorldTrial};
 pub struct Experiment<'c> {
     pub case: &'c TestCase,
     pub variation: Variation,
-    /// The factor of the requested variation.
     pub scale: f64,
 }
 
-/// Experiments in the same number of worlds. The runs do not depend on each other; [`YieldTally::tell`] takes their
-/// results in order.
+/// Experiments in the same number of worlds. Runs are independent; [`YieldTally::tell`] takes results in order.
 #[derive(Clone, Debug)]
 pub struct Yields<'c> {
     pub experiments: Vec<Experiment<'c>>,
@@ -37,8 +35,7 @@ pub struct WorldResult {
 }
 
 impl<'c> Yields<'c> {
-    /// Each case under each variation, times each of the numbers. A case without robots is the same in every world, and
-    /// left out.
+    /// Each case under each variation times each number. Cases without robots are the same in every world: left out.
     pub fn of(cases: &'c [TestCase], vary: &[Variation], times: &[f64], worlds: usize, seed: u64) -> Self {
         let mut experiments = Vec::new();
         for case in cases.iter().filter(|case| case.world_name().is_some()) {
@@ -71,7 +68,6 @@ impl<'c> Yields<'c> {
 #[derive(Debug)]
 pub struct YieldTally<'y> {
     yields: &'y Yields<'y>,
-    /// Of the experiment that is not complete.
     trials: Vec<WorldTrial>,
     done: usize,
 }

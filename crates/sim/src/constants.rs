@@ -2,8 +2,7 @@
 
 use nbc_base::model::WorldFactors;
 
-/// The constants of the model. [`Constants::default`] is the paper's world; [`Constants::in_world`] gives those of
-/// others.
+/// The constants of the model: of the paper's world by default, of others by [`Constants::in_world`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constants {
     /// Edge of a voxel at rest, in meters (1).

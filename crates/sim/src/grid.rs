@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 
 use nbc_base::model::{Body, MaterialKind, Response};
 
-/// A voxel. The target width or height of an active one is number `channel` of the targets; the points of a fixed one
-/// never move.
+/// `channel` is the place of a target width or height; the points of a fixed voxel never move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum GridCell {
     Rigid,
@@ -61,7 +60,6 @@ impl Grid {
         Self { width, height, cells, codes: codes.to_vec(), channels, apart: BTreeSet::new() }
     }
 
-    /// The same grid with some neighbors left apart: their places in reading order.
     pub fn with_apart(mut self, pairs: impl IntoIterator<Item = [usize; 2]>) -> Self {
         self.apart.extend(pairs.into_iter().map(|[a, b]| [a.min(b), a.max(b)]));
         self
@@ -79,7 +77,6 @@ impl Grid {
         self.channels
     }
 
-    /// The voxel at a place, if there is one; there is none outside the grid.
     pub fn cell(&self, row: isize, column: isize) -> Option<GridCell> {
         let is_inside = (0..self.height as isize).contains(&row) && (0..self.width as isize).contains(&column);
         if is_inside { self.cells[row as usize * self.width + column as usize] } else { None }
@@ -108,8 +105,7 @@ impl Grid {
         self.cells.iter().flatten().all(|cell| *cell == GridCell::Fixed)
     }
 
-    /// Grids one below the other, with an empty row between, and the first row of each. The channels of a grid follow
-    /// those of the grid above it.
+    /// One below the other, an empty row between, and the first row of each. Channels follow those of the grid above.
     pub fn stack(grids: &[&Grid]) -> (Self, Vec<usize>) {
         let width = grids.iter().map(|grid| grid.width).max().unwrap_or(0);
         let (cells, codes, apart) = (Vec::new(), Vec::new(), BTreeSet::new());
@@ -146,8 +142,7 @@ impl Grid {
 }
 
 impl Grid {
-    /// The voxels of a body that sense an image: row, column and response of each, in reading order. Their channels
-    /// follow those of the materials.
+    /// Row, column and response, in reading order. The channels follow those of the materials.
     pub(crate) fn seeing(body: &Body) -> impl Iterator<Item = ([usize; 2], Response)> + '_ {
         body.codes().iter().enumerate().filter_map(|(at, &code)| match body.palette().kind(code) {
             Some(MaterialKind::Sensor(response)) if response.image.is_some() => {

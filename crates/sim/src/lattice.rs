@@ -18,9 +18,7 @@ pub struct Lattice {
     /// Ordered by the places of their ends, row by row.
     pub(crate) edges: Vec<Edge>,
     voxels: Vec<Voxel>,
-    /// The edges that active voxels drive.
     pub(crate) driven: Vec<DrivenEdge>,
-    /// The points that never move, in order.
     pub(crate) fixed: Vec<usize>,
     /// The objects, from top to bottom; a body is one.
     pub(crate) parts: Vec<LatticePart>,
@@ -38,12 +36,10 @@ pub struct LatticePart {
 pub struct LatticePoint {
     pub column: usize,
     pub row: usize,
-    /// Voxels that touch only diagonally, or are left apart, have points of their own here, numbered in order of
-    /// creation.
+    /// Voxels that touch only diagonally or are left apart have points of their own, numbered in order of creation.
     pub copy: u8,
 }
 
-/// An edge between two points, which is a spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
     pub a: usize,
@@ -52,12 +48,10 @@ pub struct Edge {
     pub rest: f64,
     /// Stiffness in newtons per meter (docs/physics.md 3).
     pub stiffness: f64,
-    /// Whether it is the earlier one of two edges with the same ends: neighbors that are left apart may share both
-    /// points of their sides.
+    /// The earlier of two edges with the same ends: neighbors that are left apart may share both points of their sides.
     pub doubled: bool,
 }
 
-/// A voxel that is not empty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Voxel {
     pub row: usize,
@@ -69,8 +63,7 @@ pub struct Voxel {
     pub corners: [usize; CORNERS],
     /// Whether each side is surface: top, right, bottom, left.
     pub surface: [bool; CORNERS],
-    /// The ends of the edges at its top and its left side, if any of them is not between its corners (docs/physics.md
-    /// 16): left before right, and upper before lower.
+    /// Ends of its top and left edge if not between its corners (docs/physics.md 16): left before right, upper first.
     pub strays: Option<[[usize; 2]; 2]>,
 }
 
@@ -95,7 +88,6 @@ impl Lattice {
         Self::of(&[&Grid::from(body)], constants)
     }
 
-    /// The lattice of some objects, one below the other in a box, each a part of its own.
     pub fn of(objects: &[&Grid], constants: &Constants) -> Self {
         let (grid, tops) = Grid::stack(objects);
         let part = |(grid, &top): (&&Grid, &usize)| LatticePart { top, active: grid.is_active() };
@@ -122,8 +114,7 @@ impl Lattice {
         part_at(&self.parts, row)
     }
 
-    /// The start of a point in meters, for a body whose lower left corner is at `origin`, in voxels, rounded as in
-    /// docs/physics.md 2.
+    /// In meters, for a body whose lower left corner is at `origin`, in voxels, rounded as in docs/physics.md 2.
     pub fn start(&self, point: usize, origin: [f64; 2], constants: &Constants) -> [f64; 2] {
         let LatticePoint { column, row, .. } = self.points[point];
         corner(origin, self.height, column, row, constants)
@@ -134,8 +125,7 @@ fn part_at(parts: &[LatticePart], row: usize) -> usize {
     parts.partition_point(|part| part.top <= row) - 1
 }
 
-/// The start of a lattice point in meters, from its column and row in an object whose lower left corner is at `origin`,
-/// in voxels of the world (docs/physics.md 2).
+/// In meters, in an object whose lower left corner is given in voxels of the world (docs/physics.md 2).
 pub fn corner([left, bottom]: [f64; 2], height: usize, column: usize, row: usize, constants: &Constants) -> [f64; 2] {
     let cell = constants.cell;
     [left * cell + column as f64 * cell, (bottom * cell + height as f64 * cell) - row as f64 * cell]
@@ -234,8 +224,7 @@ impl Builder<'_> {
         (points, voxels)
     }
 
-    /// The voxels that may share a corner of a voxel, as row, column and corner: that above or below, that to the left
-    /// or right, and the diagonal one.
+    /// As row, column and corner: that above or below, that to the left or right, and the diagonal one.
     fn neighbors_at(&self, row: usize, column: usize, corner: usize) -> [Option<(usize, usize, usize)>; 3] {
         let [upright, level] = SIDES[corner];
         let step = |row: usize, column: usize, side: usize| match side {
@@ -259,8 +248,7 @@ impl Builder<'_> {
         [beside(upright, 0), beside(level, 1), diagonal]
     }
 
-    /// The edges in order of creation. A later voxel in reading order overwrites the stiffness of a shared main edge
-    /// unless it is rigid (docs/physics.md 3).
+    /// In order of creation. A later voxel overwrites a shared edge's stiffness unless it is rigid (docs/physics.md 3).
     fn drafts(&self, points: &[LatticePoint], voxels: &mut [Voxel]) -> Vec<Draft> {
         let mut drafts: Vec<Draft> = Vec::new();
         let side = self.constants.cell;

@@ -13,7 +13,6 @@ pub enum Part {
     Limits,
     /// Between env steps: stimuli, centers of mass, loading and unloading lanes.
     Bookkeeping,
-    /// All of it on a device, and the wait for it.
     Device,
 }
 
@@ -65,7 +64,6 @@ impl fmt::Debug for Meter {
     }
 }
 
-/// The watch of one batch: splits its time into parts and adds them to a meter.
 #[derive(Debug)]
 pub struct Stopwatch {
     meter: Arc<Meter>,
@@ -78,13 +76,11 @@ impl Stopwatch {
         Self { meter: Arc::clone(meter), last: (meter.clock)(), times: Times::default() }
     }
 
-    /// Leaves out the time since the last call.
     pub fn resume(&mut self) {
         self.last = (self.meter.clock)();
     }
 
-    /// Counts the time since the last call as `part`. The end of the length limits is the end of a substep of `lanes`
-    /// robots.
+    /// The end of the length limits is the end of a substep of `lanes` robots.
     pub fn lap(&mut self, part: Part, lanes: usize) {
         let now = (self.meter.clock)();
         self.times.nanoseconds[part as usize] += now.saturating_sub(self.last);
@@ -96,7 +92,6 @@ impl Stopwatch {
         }
     }
 
-    /// Counts the time since the last call as that of a device, which simulated so many substeps of robots.
     #[cfg(feature = "gpu")]
     pub fn lap_device(&mut self, lane_substeps: u64) {
         self.times.lane_substeps += lane_substeps;

@@ -4,8 +4,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use nbc_base::source::CancelFlag;
 
-/// Counts the env steps of simulations while they run, and ends them on request. The physics takes no notice of it
-/// otherwise: the results up to the end are the same bits.
+/// Counts the env steps of simulations and ends them on request; the results up to the end are the same bits.
 #[derive(Debug, Default)]
 pub struct Monitor {
     env_steps: AtomicU64,
@@ -22,8 +21,7 @@ impl Monitor {
         self.env_steps.load(Ordering::Relaxed)
     }
 
-    /// Ends the simulations before their next env step, and those that start later. Each gets the fault
-    /// [`nbc_base::model::FaultKind::Stopped`].
+    /// Also those that start later. Each gets the fault [`nbc_base::model::FaultKind::Stopped`].
     pub fn stop(&self) {
         self.stop.raise();
     }

@@ -22,7 +22,6 @@ pub struct Sight {
     pub columns: usize,
     /// The farthest that is seen, in voxels.
     pub reach: f64,
-    /// Whether the terrain above is seen, or that below.
     pub is_above: bool,
 }
 
@@ -42,8 +41,7 @@ impl Scene {
         }
     }
 
-    /// How far below (or above) the center of mass of an object the highest (lowest) point of some terrain is in each
-    /// column, in voxels. It is the farthest that is seen where there is none.
+    /// Distances below (or above) an object's center of mass, in voxels; the farthest that is seen without terrain.
     pub fn surface(
         &self,
         object: usize,

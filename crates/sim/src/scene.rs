@@ -47,8 +47,7 @@ const PI: f64 = 3.1415926;
 const ALMOST: f64 = 0.99999;
 const NEAR: f64 = 1e-7;
 
-/// The direction of each point from the center of mass, and its distance. The sums are rounded as Evolution Gym's,
-/// because a cosine of exactly 1 is taken as it is.
+/// Sums are rounded as Evolution Gym's, because a cosine of exactly 1 is taken as it is.
 fn arms(points: &[[f64; 2]]) -> Vec<([f64; 2], f64)> {
     let mean = |axis: usize| {
         let values: Vec<f64> = points.iter().map(|at| at[axis]).collect();
@@ -68,9 +67,7 @@ fn arms(points: &[[f64; 2]]) -> Vec<([f64; 2], f64)> {
 }
 
 impl Scene {
-    /// The scene of these objects. In sums, objects without actuators come before robots, and objects of each kind in
-    /// their order here.
-    /// Panics when no object moves.
+    /// In sums, objects without actuators come before robots, each kind in order. Panics when no object moves.
     pub fn new(objects: &[SceneObject], constants: &Constants) -> Self {
         let (still, mut moving): (Vec<usize>, Vec<usize>) =
             (0..objects.len()).partition(|&n| objects[n].grid.is_fixed());
@@ -129,8 +126,7 @@ impl Scene {
         (0..self.objects()).map(|object| self.channels(object).end).max().unwrap_or(0)
     }
 
-    /// The positions of an object's points, in voxels, in order of creation (docs/physics.md 2), in a state of the
-    /// scene.
+    /// In voxels, in order of creation (docs/physics.md 2).
     pub fn positions(&self, object: usize, state: &State, constants: &Constants) -> Vec<[f64; 2]> {
         let meters = match &self.objects[object] {
             Placed::Moving { points, .. } => &state.position[points.clone()],
@@ -158,8 +154,7 @@ impl Scene {
         }
     }
 
-    /// How far an object has turned since the start, in radians from 0 to 2π, counterclockwise: Evolution Gym's
-    /// estimate (docs/physics.md 16).
+    /// Evolution Gym's estimate since the start, in radians from 0 to 2π, counterclockwise (docs/physics.md 16).
     pub fn turn(&self, object: usize, state: &State) -> f64 {
         let Placed::Moving { points, .. } = &self.objects[object] else { return 0.0 };
         let [now, start] = [state, &self.start].map(|state| arms(&state.position[points.clone()]));
@@ -176,8 +171,7 @@ impl Scene {
         if cross > 0.0 { 2.0 * PI - angle } else { angle }
     }
 
-    /// The points of each voxel of an object, by their places in its positions: top left, top right, bottom right,
-    /// bottom left.
+    /// Places in the object's positions: top left, top right, bottom right, bottom left.
     pub fn voxels(&self, object: usize) -> Vec<[usize; CORNERS]> {
         match &self.objects[object] {
             Placed::Moving { points, .. } => {

@@ -6,8 +6,7 @@ use crate::constants::Constants;
 use crate::grid::Grid;
 use nbc_base::model::{Body, Drive, MaterialKind, Palette, Response, Spell};
 
-/// The target widths of a body's channels over time: one for each of its materials, and one for each voxel that senses
-/// an image, because what these sense depends on their places.
+/// One for each material and for each voxel that senses an image, because what these sense depends on their places.
 #[derive(Clone, Debug)]
 pub struct Signals {
     /// Indexed by channel: first the material codes, of which code 0 has no target.
@@ -40,7 +39,6 @@ impl Signals {
         Self { signals: std::iter::once(Signal::Still).chain(materials).collect() }
     }
 
-    /// The signals of a body's channels (see [`Grid`]), with those of its materials.
     pub fn of(mut self, body: &Body, constants: &Constants) -> Self {
         let size = [body.height(), body.width()];
         let seen = Grid::seeing(body).map(|(place, response)| {
@@ -51,8 +49,7 @@ impl Signals {
         self
     }
 
-    /// The target of a channel in env step `env_step` (from 0) under the stimuli of a spell; 1 for those that nothing
-    /// drives.
+    /// In env step `env_step` (from 0) under the stimuli of a spell; 1 for channels that nothing drives.
     pub fn target(&self, channel: usize, env_step: u32, spell: &Spell) -> f64 {
         match &self.signals[channel] {
             Signal::Still => 1.0,
@@ -67,7 +64,6 @@ impl Signals {
         self.signals.len()
     }
 
-    /// Whether a channel depends on the body, not on its materials alone.
     #[cfg(feature = "gpu")]
     pub(crate) fn is_of_body(&self) -> bool {
         self.signals.iter().any(|signal| matches!(signal, Signal::Seen { .. }))

@@ -24,22 +24,18 @@ impl Simulator {
         Self { backend: Arc::new(backend) }
     }
 
-    /// The default simulator, followed by `monitor`, which can end its simulations.
     pub fn monitored(monitor: Arc<Monitor>) -> Self {
         Self::new(LaneBackend { monitor: Some(monitor), ..LaneBackend::default() })
     }
 
-    /// The number of robots that are simulated in about the time of one.
     pub fn at_once(&self) -> usize {
         self.backend.at_once()
     }
 
-    /// Robots that are advanced step by step, one for each body; see [`Backend::flock`].
     pub fn flock(&self, setting: &Setting, bodies: &[Body]) -> Box<dyn Flock> {
         self.backend.flock(setting, bodies)
     }
 
-    /// Simulates each trial from a fresh start; see [`Backend::run_trials`].
     pub fn run_trials(&self, setting: &Setting, trials: &[Trial]) -> Vec<Trajectory> {
         self.backend.run_trials(setting, trials)
     }

@@ -26,7 +26,6 @@ pub struct TerrainVoxel {
 }
 
 impl Terrain {
-    /// Terrain of these objects, each with the column and the row of its lower left corner.
     pub fn new<'a>(objects: impl IntoIterator<Item = (&'a Grid, [usize; 2])>, constants: &Constants) -> Self {
         let mut placed: Vec<([usize; 2], TerrainVoxel)> = Vec::new();
         let (mut columns, mut rows) = (0, 0);
@@ -50,7 +49,6 @@ impl Terrain {
         Self { voxels: placed.into_iter().map(|(_, voxel)| voxel).collect(), columns, cells }
     }
 
-    /// Ground of one column of voxels after another, which has the profile's voxels. All neighbors are joined.
     pub fn ground(columns: usize, profile: &GroundProfile, constants: &Constants) -> Self {
         let rows = profile.highest(0..columns.min(GroundProfile::MOST_COLUMNS));
         let is_there = |row: usize, column: usize| profile.rows(column) >> (rows - 1 - row) & 1 == 1;

@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::draft::{DraftFile, keep_owner_and_mode};
 use nbc_base::diag::Diagnostic;
 
-/// Writes a file atomically: at any time, its path has either the old contents or all of `bytes`. A new file in the
-/// same folder is flushed to the disk and then takes the old name.
+/// Its path has at any time either the old contents or all of `bytes`, which are flushed to the disk first.
 pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_with(path, |out| out.write_all(bytes))
 }
@@ -17,7 +16,6 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
     write(path, bytes).map_err(|error| Diagnostic::unwritable(path, &error))
 }
 
-/// Like [`write()`], for content that is made piece by piece.
 pub fn write_with(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     // The target of a link is replaced, not the link; a device such as /dev/null is written directly.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());

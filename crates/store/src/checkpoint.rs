@@ -23,13 +23,10 @@ pub struct Checkpoint {
     pub version: String,
     pub declared: Evolution,
     pub state: SearchState,
-    /// Env steps simulated so far.
     pub env_steps: u64,
-    /// Env steps left out so far.
     pub left_out: u64,
 }
 
-/// The part of a checkpoint after its header.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Record {
@@ -41,7 +38,6 @@ struct Record {
 }
 
 impl Checkpoint {
-    /// The bytes of a search's checkpoint file, with the env steps simulated and left out so far.
     pub fn print(search: &Search, env_steps: u64, left_out: u64) -> Vec<u8> {
         let record = Record {
             version: nbc_base::VERSION.to_owned(),
@@ -53,7 +49,6 @@ impl Checkpoint {
         framed(MAGIC, FORMAT, &serde_json::to_string(&record).expect("a search can be written as JSON"))
     }
 
-    /// Reads the checkpoint file at `path`; `None` if there is no such file.
     pub fn open(path: &Path) -> Result<Option<Self>, Diagnostic> {
         let name = path.display().to_string();
         match read(path, Limit::CheckpointBytes.most()) {
@@ -94,7 +89,6 @@ pub(super) fn framed(magic: &str, format: &str, text: &str) -> Vec<u8> {
     format!("{magic} {format} {:08x} {}\n{text}\n", crc32fast::hash(text.as_bytes()), text.len()).into_bytes()
 }
 
-/// The text of a file with such a header.
 pub(super) fn unframed<'b>(name: &str, magic: &str, format: &str, bytes: &'b [u8]) -> Result<&'b [u8], Diagnostic> {
     let end = bytes.iter().take(MAX_HEADER).position(|&byte| byte == b'\n').unwrap_or(0);
     let words: Vec<&[u8]> = bytes[..end].split(|&byte| byte == b' ').collect();

@@ -38,7 +38,6 @@ impl CircuitRead {
     }
 }
 
-/// Reads a model with properties.
 pub fn read_model(path: &Path) -> Result<AigerModel, Diagnostics> {
     let file = path.display().to_string();
     if CircuitSource::of_path(&file) != Some(CircuitSource::Aiger) {
@@ -108,7 +107,6 @@ fn read(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
     Ok(CircuitRead::plain(design, Diagnostics::default()))
 }
 
-/// A model of a BLIF text, with a warning about what is not read of it.
 fn blif(name: String, text: String, from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
     let model = from.top.name.as_deref();
     let (design, sources) = parse(name.clone(), text, |text, file| blif::read_model(text, file, from.clock, model))?;
@@ -120,7 +118,6 @@ fn blif(name: String, text: String, from: &CircuitFile<'_>) -> Result<CircuitRea
     Ok(CircuitRead::plain(design, Diagnostics { list, sources }))
 }
 
-/// Rejects a clock that no register of a file is for.
 fn without_effect(file: &str, clock: Option<&str>) -> Result<(), Diagnostics> {
     clock.map_or(Ok(()), |clock| Err(wording::no_unclocked(file, clock).into()))
 }
@@ -145,7 +142,6 @@ fn verilog_top(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
     }
 }
 
-/// A design as the bytes of a file; a program of the language is written as the formatter writes it.
 pub fn encode_circuit(design: &Design, format: CircuitFormat) -> Result<Vec<u8>, Diagnostic> {
     let bytes = format.encode(design)?;
     if format != CircuitFormat::Nb {
@@ -168,7 +164,6 @@ pub fn with_comment(bytes: Vec<u8>, format: CircuitFormat, lines: &[String]) -> 
     [comment, bytes].concat()
 }
 
-/// The text of a file of rows, with its place.
 pub fn read_rows(path: &Path) -> Result<(Sources, FileId), Diagnostics> {
     let mut sources = Sources::default();
     let file = sources.add(path.display().to_string(), text(path)?);

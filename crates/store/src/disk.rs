@@ -11,8 +11,7 @@ use nbc_base::source::{EntryKind, FileError};
 /// The path of standard input, which may be a pipe. Windows has no such path.
 const STANDARD_INPUT: &str = "/dev/stdin";
 
-/// The bytes of a regular file of at most `limit` bytes. Folders, pipes and devices are rejected before they are
-/// opened, because a pipe waits for its writer and a device may never end. Standard input is read in any case.
+/// Folders, pipes and devices are rejected unopened: a pipe waits for its writer. Standard input is read in any case.
 pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     if cfg!(windows) && path == Path::new(STANDARD_INPUT) {
         return up_to(limit, io::stdin().lock());
@@ -47,7 +46,6 @@ pub(super) fn refusal(error: &std::io::Error) -> FileError {
     }
 }
 
-/// The kind of a path that is not a regular file.
 fn kind(of: FileType) -> &'static str {
     #[cfg(unix)]
     {
@@ -73,7 +71,6 @@ pub(super) fn source_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
     read(path, Limit::SourceBytes.most())
 }
 
-/// The names of the entries of a folder, in order.
 pub(super) fn list(folder: &Path) -> Result<Vec<String>, FileError> {
     if folder.is_file() {
         return Err(FileError::Io("it is not a folder".to_owned()));

@@ -10,8 +10,7 @@ use tempfile::{Builder, NamedTempFile};
 #[cfg(target_os = "linux")]
 const NAMES_OF_OPEN_FILES: &str = "/proc/self/fd";
 
-/// A new file in a folder. If the system supports unnamed files it has no name, so nothing is left behind however the
-/// program ends. Elsewhere it is removed when dropped.
+/// If the system supports unnamed files it has no name until it is kept; elsewhere it is removed when dropped.
 pub(super) enum DraftFile {
     Unnamed(File),
     Named(NamedTempFile),
@@ -33,7 +32,6 @@ impl DraftFile {
         }
     }
 
-    /// Gives the file its name, replacing any other file.
     pub(super) fn persist(self, folder: &Path, target: &Path) -> io::Result<()> {
         match self {
             Self::Named(file) => file.persist(target).map(drop).map_err(|error| error.error),

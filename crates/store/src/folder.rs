@@ -9,8 +9,7 @@ use crate::verilog::{self, WantedModules};
 use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogFiles, VerilogModules};
 use nbc_circuit::CancelFlag;
 
-/// The files below a folder. Paths are relative to it, or absolute and below it. What lies outside cannot be read, also
-/// not through links.
+/// Paths are relative to the folder, or absolute and below it. What lies outside cannot be read, not even by links.
 #[derive(Clone, Debug)]
 pub struct FolderWorld {
     /// Without links.
@@ -23,7 +22,6 @@ impl FolderWorld {
         if root.is_dir() { Ok(Self { root }) } else { Err(io::ErrorKind::NotADirectory.into()) }
     }
 
-    /// The folder, absolute and without links.
     pub fn root(&self) -> &Path {
         &self.root
     }
@@ -52,8 +50,7 @@ impl FolderWorld {
         Ok(self.existing(&folder)?.join(name))
     }
 
-    /// A path relative to the folder. One that leads out of it is refused without reading the disk, so that answers
-    /// reveal nothing about it.
+    /// A path that leads out is refused without reading the disk, so that answers reveal nothing about it.
     fn inside<'p>(&self, path: &'p str) -> Result<&'p Path, FileError> {
         let path = Path::new(path);
         let inside = if path.is_absolute() { path.strip_prefix(&self.root).map_err(|_| outside())? } else { path };

@@ -22,7 +22,6 @@ impl<W> fmt::Debug for GuardedWorld<W> {
 }
 
 impl<W> GuardedWorld<W> {
-    /// The same files. `cancel` gives the flag that ends a translation or a check which begins now.
     pub fn new(world: W, cancel: impl Fn() -> CancelFlag + Send + Sync + 'static) -> Self {
         Self { world, cancel: Arc::new(cancel) }
     }

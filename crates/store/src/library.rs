@@ -19,13 +19,11 @@ pub fn shipped_library() -> Library {
     read_built_in(&[&SHIPPED])
 }
 
-/// The robots that come with the program and those with three stimuli, best first within each function; read afresh at
-/// each call.
+/// The robots of [`shipped_library`] and those with three stimuli, best first within each function.
 pub fn three_library() -> Library {
     read_built_in(&[&SHIPPED, &THREE])
 }
 
-/// The library in the program with this name: `shipped` or `three`.
 pub fn built_in(name: &str) -> Option<Library> {
     match name {
         "shipped" => Some(shipped_library()),

@@ -6,8 +6,7 @@ use std::path::Path;
 
 use crate::results::is_link;
 
-/// The locked file in a run's folder, which contains the number of the process. It is never removed: the operating
-/// system holds the lock and releases it when the process ends in any way.
+/// Contains the number of the process; never removed, since the system releases the lock when the process ends.
 const NAME: &str = "lock";
 
 /// A folder that no other process writes to until this is dropped.
@@ -16,7 +15,6 @@ pub struct FolderLock(#[expect(dead_code, reason = "the lock lasts as long as th
 
 #[derive(Debug)]
 pub enum LockFault {
-    /// Another process has the lock.
     Held {
         /// Its number, if already written.
         process: Option<u32>,
@@ -24,7 +22,6 @@ pub enum LockFault {
     Io(io::Error),
 }
 
-/// Takes a folder for this process, without waiting.
 pub fn lock_folder(folder: &Path) -> Result<FolderLock, LockFault> {
     let path = folder.join(NAME);
     if is_link(&path) {

@@ -63,7 +63,6 @@ impl ResultPlace {
     }
 }
 
-/// Whether there is a link with this path, wherever it leads.
 pub(super) fn is_link(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok_and(|about| about.is_symlink())
 }

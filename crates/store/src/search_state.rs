@@ -24,7 +24,6 @@ pub(super) struct SearchRecord {
     niches: Vec<(NicheKey, Vec<EliteRecord>)>,
 }
 
-/// An elite with the palette of the declaration.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct EliteRecord {
@@ -79,7 +78,6 @@ impl SearchRecord {
     }
 }
 
-/// Whether a key has a bin on each axis.
 fn is_niche(key: &NicheKey, axes: &[Axis], inputs: usize) -> bool {
     let bins = |axis: &Axis| match axis {
         Axis::Count { .. } | Axis::Behavior => axis.bins(inputs),

@@ -18,7 +18,6 @@ struct BodyFile {
     materials: Option<Arc<Palette>>,
 }
 
-/// A body as people write it.
 #[derive(Deserialize)]
 #[serde(untagged, expecting = "invalid `body`; expected rows of codes such as [\"00345\", \"33333\"]")]
 enum Rows {
@@ -54,14 +53,12 @@ impl Row {
     }
 }
 
-/// Reads the body of a robot file, or of any YAML or JSON mapping whose `body` is rows of codes, top row first.
-/// `materials` may define the codes.
+/// Reads a robot file, or any YAML or JSON mapping whose `body` is rows of codes; `materials` may define the codes.
 pub fn read_body(file: &SourceFile) -> Result<Body, Diagnostic> {
     let BodyFile { body, materials } = yaml::read(file).map_err(wording::with_body_example)?;
     self::body(file, &body.into_text(), &materials.unwrap_or_else(Palette::paper))
 }
 
-/// The body of these rows, in one piece.
 pub(super) fn body(file: &SourceFile, rows: &[String], palette: &Arc<Palette>) -> Result<Body, Diagnostic> {
     let body = Body::parse(rows, palette).map_err(|error| fault(file, rows, &error))?;
     if body.is_connected() {
@@ -70,7 +67,6 @@ pub(super) fn body(file: &SourceFile, rows: &[String], palette: &Arc<Palette>) -
     Err(wording::two_pieces(file, yaml::key_span(file, "body")))
 }
 
-/// The error of a body, at its row if the row can be found in the text.
 fn fault(file: &SourceFile, rows: &[String], error: &BodyError) -> Diagnostic {
     let body = yaml::key_span(file, "body");
     let span = match *error {
@@ -85,8 +81,7 @@ fn fault(file: &SourceFile, rows: &[String], error: &BodyError) -> Diagnostic {
     wording::no_body(file, error, span)
 }
 
-/// The place of row `wanted` in the text, found by walking from row to row after the key; `None` for other notations of
-/// rows.
+/// Found by walking from row to row after the key; `None` for other notations of rows.
 fn row_span(file: &SourceFile, body: Span, rows: &[String], wanted: usize) -> Option<Span> {
     let mut at = body.range().end;
     for row in &rows[..wanted] {

@@ -9,7 +9,6 @@ use nbc_base::source::SourceFile;
 const MAX_CYCLES: u32 = 1000;
 const MAX_NAME: usize = 100;
 
-/// Rejects a robot with values that a measurement cannot give.
 pub(super) fn check(file: &SourceFile, robot: &Robot) -> Result<(), Diagnostic> {
     let flaw =
         words(robot).or_else(|| motion(robot)).or_else(|| character(&robot.character)).or_else(|| weights(robot));
@@ -19,7 +18,6 @@ pub(super) fn check(file: &SourceFile, robot: &Robot) -> Result<(), Diagnostic> 
     }
 }
 
-/// The field with an impossible value, and what is wrong with it.
 type Flaw = (&'static str, String);
 
 fn weights(robot: &Robot) -> Option<Flaw> {

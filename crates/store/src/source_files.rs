@@ -3,11 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The most files and folders that are looked at.
 const MOST: usize = 10_000;
 
-/// The paths of the source files in folders and below them that are `wanted`, in order. Hidden folders and those of
-/// results and packages are left out.
+/// The wanted source files in and below folders, in order, without hidden folders and those of results and packages.
 pub fn source_files(folders: impl IntoIterator<Item = PathBuf>, wanted: impl Fn(&str) -> bool) -> Vec<String> {
     let mut found = Vec::new();
     let mut open: Vec<PathBuf> = folders.into_iter().collect();

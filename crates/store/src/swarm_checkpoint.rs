@@ -20,7 +20,6 @@ const MAGIC: &str = "nbc-swarm";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SwarmCheckpoint {
-    /// What tells the task: checksums of its robots and of its inputs.
     task: [u32; 2],
     pub swarm: KeptSwarm,
 }
@@ -30,12 +29,10 @@ impl SwarmCheckpoint {
         Self { task: checksums(task), swarm }
     }
 
-    /// Writes the file, whole or not at all.
     pub fn save(&self, path: &Path) -> Result<(), Diagnostic> {
         write_file(path, &framed(MAGIC, FORMAT, &serde_json::to_string(self).expect("a swarm can be written as JSON")))
     }
 
-    /// Reads the file of a task; `None` if there is none.
     pub fn open(path: &Path, task: &SwarmTask) -> Result<Option<Self>, Diagnostic> {
         let name = path.display().to_string();
         let bytes = match read(path, Limit::CheckpointBytes.most()) {

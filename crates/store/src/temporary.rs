@@ -17,7 +17,7 @@ pub fn temporary_folder() -> io::Result<PathBuf> {
 pub struct PrivateFile(TempPath);
 
 impl PrivateFile {
-    /// Writes a text to a new file in the folder for temporary files. Its name has this start and this end.
+    /// A new file in the folder for temporary files; its name has this start and this end.
     pub fn create(start: &str, end: &str, text: &str) -> io::Result<Self> {
         // Files that this makes are readable by their user only.
         let mut file = Builder::new().prefix(start).suffix(end).tempfile_in(temporary_folder()?)?;

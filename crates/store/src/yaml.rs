@@ -38,7 +38,6 @@ struct Tally<'b>(&'b mut WorkBudget);
 
 impl Tally<'_> {
     fn take<E: Error>(&mut self, bytes: usize) -> Result<(), E> {
-        // Each value takes memory, too.
         let bytes = (bytes as u64).saturating_add(VALUE_BYTES);
         let taken = self.0.take(Limit::RobotTextBytes, bytes);
         taken.map_err(|_| {
@@ -50,7 +49,6 @@ impl Tally<'_> {
     }
 }
 
-/// What a value counts beside its text.
 const VALUE_BYTES: u64 = 8;
 
 impl<'de> DeserializeSeed<'de> for Tally<'_> {
@@ -114,7 +112,6 @@ impl<'de> Visitor<'de> for Tally<'_> {
     }
 }
 
-/// The place of the first bracket that is nested too deep.
 fn too_deep(text: &str) -> Option<usize> {
     let mut depth = 0;
     text.bytes().position(|byte| {
@@ -171,7 +168,6 @@ fn fault(file: &SourceFile, error: &serde_yaml::Error) -> Diagnostic {
     wording::not_robot(file, &message, span)
 }
 
-/// The place of the first word in backticks that occurs in the text, for errors without a place.
 fn quoted_span(file: &SourceFile, message: &str) -> Span {
     let quoted = message.split('`').skip(1).step_by(2).filter(|word| !word.is_empty());
     let found = quoted.filter_map(|word| Some(span(file.id, file.text.find(word)?, word.len()))).next();

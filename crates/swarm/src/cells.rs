@@ -3,9 +3,8 @@
 use nbc_base::model::{Character, Function, Library, Pattern, Robot};
 use nbc_circuit::{CellKind, CellLibrary, MappingObjective};
 
-/// The library with the robots first that suit the objective: those with the shortest clocks for the delay, those with
-/// the widest margins for the margin, those that bear the largest changes of the world for sturdiness. For the area,
-/// the order stays.
+/// Puts first the robots that suit the objective: the shortest clocks for the delay, the widest margins for the margin,
+/// the largest bearable changes of the world for sturdiness. For the area, the order stays.
 pub fn prefer(library: Library, objective: MappingObjective) -> Library {
     let mut robots = library.robots;
     let faster = |a: &Character, b: &Character| a.clock.cmp(&b.clock);
@@ -32,9 +31,8 @@ fn radius(character: &Character) -> f64 {
     character.radius.as_ref().map_or(0.0, |found| found.radius)
 }
 
-/// The robots of a library that react within so many cycles, and never glitch if that is one. All cost a wave machine
-/// one beat, and an error would stay in it, so the sturdiest come first, or the widest where the objective is the
-/// margin.
+/// Robots that react within so many cycles, and never glitch if that is one. All cost a wave machine one beat, and an
+/// error would stay in it, so the sturdiest come first, or the widest margins by that objective.
 pub fn within_beat(library: &Library, beat: u32, objective: MappingObjective) -> Library {
     let is_quick = |robot: &&Robot| {
         let character = &robot.character;
@@ -44,8 +42,7 @@ pub fn within_beat(library: &Library, beat: u32, objective: MappingObjective) ->
     prefer(quick, if objective == MappingObjective::Margin { objective } else { MappingObjective::Sturdy })
 }
 
-/// The cells of a library: for each function of two inputs, and each that depends on three, the robot that
-/// [`super::assemble`] takes for it.
+/// Functions of two inputs and those that depend on three, with the robots that [`super::assemble`] takes.
 pub fn cells(library: &Library) -> CellLibrary {
     let wide = Function::all_of(3).filter(|function| function.arity() == 3);
     Function::all().chain(wide).filter_map(|function| Some((function, kind(library, function)?))).collect()
@@ -73,15 +70,13 @@ impl Fit<'_> {
         self.uses.iter().map(stimulus).collect()
     }
 
-    /// The pattern of the robot's stimuli in a row of the truth table of the cell's function.
     fn pattern(&self, function: Function, row: usize) -> Pattern {
         let pins: Vec<bool> = (0..function.inputs()).map(|input| function.input_at(input, row)).collect();
         Pattern::new(&self.stimuli(&pins, |value| value))
     }
 }
 
-/// The robot for a function: the first that computes it, or else the first that computes it with its inputs in another
-/// order, or else the first with three stimuli that computes it if one or two of them are constant.
+/// The first that computes it; else with its inputs in another order; else with constants among three stimuli.
 pub(super) fn choose(library: &Library, function: Function) -> Option<Fit<'_>> {
     let straight: Vec<StimulusUse> = (0..function.inputs()).map(StimulusUse::Pin).collect();
     let exact = library.robots_for(function).next().map(|robot| Fit { robot, uses: straight });
@@ -98,7 +93,6 @@ pub(super) fn choose(library: &Library, function: Function) -> Option<Fit<'_>> {
     exact.or_else(other)
 }
 
-/// The ways in which a robot may be a cell of a function other than that its stimuli are the inputs in their order.
 fn uses(function: Function) -> Vec<Vec<StimulusUse>> {
     use StimulusUse::{Constant, Pin};
     if function.inputs() == 3 {

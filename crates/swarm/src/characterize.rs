@@ -19,14 +19,11 @@ const CLOCKS: std::ops::RangeInclusive<u32> = 1..=8;
 const SLACK: u32 = 3;
 /// Ground columns by which starts differ: each has other roundings in the first contacts (docs/physics.md 12).
 const STARTS: [usize; 2] = [0, 1];
-/// Random sequences from each start.
 const LANES: usize = 8;
 /// Switches of a random sequence; the first hold is a start.
 const SWITCHES: usize = 64;
-/// Switches of the cheaper sequences that come first.
 const FIRST_SWITCHES: usize = 8;
-/// Cycles before a switch whose settle time is measured; there are several, so that a switch happens at different
-/// moments.
+/// In cycles; several, so that a switch happens at different moments.
 const SETTLE_BEFORE: [u32; 2] = [6, 9];
 /// Cycles after it. A settle time of one more means that the output was wrong until the end.
 const SETTLE_AFTER: u32 = 12;
@@ -35,8 +32,6 @@ const WORLD: usize = 4000;
 /// A body whose height in a pattern falls below this fraction of its height in its first hold has toppled.
 const TOPPLED: f64 = 0.7;
 
-/// Measures the character of a body as a gate with this behavior.
-///
 /// The clock is the smallest number of cycles (from 1 to 8) such that in 1,024 random switches, held for that many to
 /// three cycles more, no output was wrong from that cycle of a hold on. If there is none, it is the one with the fewest
 /// wrong holds.
@@ -64,8 +59,7 @@ pub fn screen(simulator: &Simulator, body: &Body, behavior: Behavior, most: u32)
     Ok(None)
 }
 
-/// The share of switches with a wrong output of a robot in a world, at its clock in the first, cheap sequences. All are
-/// wrong if a simulation fails.
+/// Share of wrong switches at the robot's clock in the first, cheap sequences; all if a simulation fails.
 pub(super) fn errors_in(simulator: &Simulator, robot: &Robot, world: &PhysicsWorld) -> f64 {
     let probe = Probe { world: *world, ..Probe::new(simulator, &robot.body, robot.behavior) };
     let tally = probe.random(robot.character.clock, FIRST_SWITCHES, u32::MAX);
@@ -179,7 +173,6 @@ impl<'a> Probe<'a> {
         Ok(self.random(best.clock, switches, u32::MAX)?.expect("any number of errors is accepted"))
     }
 
-    /// Random sequences at a clock, unless that many switches are wrong. Then no more starts are simulated.
     fn random(&self, clock: u32, switches: usize, too_many: u32) -> Result<Option<Tally>, Fault> {
         let mut rng = ChaCha8Rng::seed_from_u64(SEED);
         rng.set_stream(u64::from(clock));
@@ -200,7 +193,6 @@ impl<'a> Probe<'a> {
         Ok(Some(tally))
     }
 
-    /// The settle times of all transitions, the largest over all starts, and whether the body fell over in one.
     fn settle(&self) -> Result<(Vec<Transition>, bool), Fault> {
         let stimuli = self.behavior.stimuli();
         let pairs: Vec<(Pattern, Pattern)> = Pattern::all(stimuli)
@@ -218,7 +210,6 @@ impl<'a> Probe<'a> {
         Ok((pairs.iter().enumerate().map(transition).collect(), runs.iter().any(|holds| has_toppled(holds))))
     }
 
-    /// The cycle from which on the output is correct.
     fn settled(&self, hold: &PatternHold) -> u32 {
         let right = self.behavior.direction(hold.pattern);
         let last_wrong = hold.cycles.iter().rposition(|&displacement| Direction::of(displacement) != right);
@@ -226,7 +217,6 @@ impl<'a> Probe<'a> {
     }
 }
 
-/// Whether the body is much lower in the last hold of some pattern than in its first.
 fn has_toppled(holds: &[PatternHold]) -> bool {
     let patterns: BTreeSet<Pattern> = holds.iter().map(|hold| hold.pattern).collect();
     patterns.into_iter().any(|pattern| {

@@ -20,7 +20,6 @@ pub struct CyclePart {
     pub stops: Vec<u32>,
 }
 
-/// The states of the robots of a part, for each stop.
 pub type PartStates = Vec<Vec<Snapshot>>;
 
 impl CyclePart {
@@ -72,7 +71,6 @@ mod starts {
     }
 }
 
-/// [`PartStates`] as data, for `#[serde(with)]`.
 pub mod part_states {
     use super::*;
 

@@ -31,7 +31,6 @@ pub fn evaluate_tasks(
     evaluate_remembering(simulator, &WalkMemory::default(), protocol, tasks)
 }
 
-/// The same, without the simulations that the memory has.
 pub(crate) fn evaluate_remembering(
     simulator: &Simulator,
     memory: &WalkMemory,
@@ -45,7 +44,6 @@ pub(crate) fn evaluate_remembering(
     }
 }
 
-/// Env steps of a full evaluation, in which nothing is left out.
 pub fn full_steps(protocol: &EvaluationProtocol) -> u64 {
     match protocol.objective {
         SearchObjective::Distance => protocol.distance_steps(),
@@ -54,8 +52,7 @@ pub fn full_steps(protocol: &EvaluationProtocol) -> u64 {
     }
 }
 
-/// The result of each body for an empty archive, so that nothing is left out. Bodies must be valid (see
-/// [`crate::evolve::validate`]).
+/// For an empty archive, so that nothing is left out. Bodies must be valid (see [`crate::evolve::validate`]).
 pub fn evaluate_bodies(simulator: &Simulator, evolution: &Evolution, bodies: Vec<Body>) -> Vec<CandidateOutcome> {
     let tasks: Vec<EvaluationTask> = bodies
         .into_iter()

@@ -15,21 +15,18 @@ pub struct EvaluationProtocol {
     pub objective: SearchObjective,
     /// The behaviors as which gates are scored, the nearest of them; if there are none, what the body does.
     pub behaviors: Vec<Behavior>,
-    /// The stimuli of the long simulation, or the images.
     pub variable: Schedule,
     pub shown: ImageOrder,
     /// The length of each simulation under one constant pattern, in env steps.
     pub fixed_steps: u32,
     pub world: PhysicsWorld,
-    /// Further worlds in which the gate objective evaluates bodies.
     pub others: Vec<PhysicsWorld>,
 }
 
-/// The seed of the other worlds of evolutions. `nbc test` and `nbc library verify` use 1, so that they try robots in
-/// worlds that the search has not seen.
+/// `nbc test` and `nbc library verify` use 1, so that they try robots in worlds that the search has not seen.
 const SAMPLE_SEED: u64 = 0;
 
-/// The setting of each simulation in a world. Every candidate starts at the same place.
+/// Every candidate starts at the same place.
 pub(super) fn setting(world: &PhysicsWorld) -> Setting {
     let shift = RobotNoise::new(&world.noise, 0).shift();
     let plain = Setting::default();
@@ -41,8 +38,7 @@ pub struct EvaluationTask {
     pub body: Body,
     /// The elites that it must beat. An evaluation ends early when the body cannot beat them.
     pub rivals: Rivals,
-    /// The displacements of its parent in the fixed simulations, if it has one. The order of simulations depends on
-    /// them, and so does how many are left out.
+    /// Of its parent in the fixed simulations. Their order depends on them, and how many are left out.
     pub expected: Option<Displacements>,
 }
 
@@ -72,7 +68,6 @@ impl EvaluationProtocol {
         }
     }
 
-    /// Env steps of a full evaluation of the distance objective.
     pub(super) fn distance_steps(&self) -> u64 {
         (u64::from(self.fixed_steps) << self.stimuli)
             + self.variable.spells.iter().map(|spell| u64::from(spell.steps)).sum::<u64>()

@@ -8,9 +8,8 @@ use nbc_sim::Simulator;
 
 /// Does tasks. The results depend on the tasks alone, not on the machine. Any thread can call it.
 pub trait Executor: Sync {
-    /// The result of each task, which is of the task's kind; `None` if the work was stopped. Calls `observe` after each
-    /// task. `run` is the number of a series of calls, such as those of an evolution run; calls at the same time have
-    /// different numbers.
+    /// `None` if stopped. Calls `observe` after each task. `run` is the number of a series of calls, such as
+    /// those of an evolution run; calls at the same time have different numbers.
     fn perform(&self, run: usize, tasks: &[Task], observe: &dyn Fn()) -> Option<Vec<TaskResult>>;
 }
 
@@ -27,7 +26,6 @@ impl LocalExecutor {
         Self { simulator, ..Self::default() }
     }
 
-    /// The executor, stopped by a flag that also ends the simulations of its simulator.
     #[must_use]
     pub fn until(self, stop: CancelFlag) -> Self {
         Self { stop, ..self }
@@ -47,13 +45,11 @@ impl Executor for LocalExecutor {
     }
 }
 
-/// The result of each task, simulated here. Evaluations by the same protocol are done together. Calls `observe` after
-/// each task.
+/// Evaluations by the same protocol are done together. Calls `observe` after each task.
 pub fn perform(simulator: &Simulator, tasks: &[Task], observe: &dyn Fn()) -> Vec<TaskResult> {
     perform_remembering(simulator, &WalkMemory::default(), tasks, observe)
 }
 
-/// The same, without the simulations that the memory has.
 fn perform_remembering(
     simulator: &Simulator,
     memory: &WalkMemory,

@@ -10,8 +10,7 @@ use nbc_base::model::{Behavior, CYCLE_STEPS, Direction, Pattern, Schedule, Spell
 pub(crate) struct HoldPlan(pub Vec<(Pattern, u32)>);
 
 impl HoldPlan {
-    /// `count` holds of random patterns of that many stimuli, each different from the previous one, for a random number
-    /// of cycles.
+    /// Each pattern differs from the previous one, and is held for a random number of cycles.
     pub(crate) fn random<R: Rng>(stimuli: usize, count: usize, cycles: RangeInclusive<u32>, rng: &mut R) -> Self {
         let patterns: Vec<Pattern> = Pattern::all(stimuli).collect();
         let many = patterns.len() as u32;

@@ -19,7 +19,7 @@ pub struct RowHold {
     pub rests: Vec<bool>,
 }
 
-/// Judges a row by the outputs at its end, and by which of them were steady. Every row of every test is judged here.
+/// Every row of every test is judged here.
 pub fn judge_row(test: &CircuitTest, row: &TestRow, outputs: &[bool], steady: &[bool]) -> RowVerdict {
     let meets = |((expected, &output), &steady): ((&Option<bool>, &bool), &bool)| {
         expected.is_none_or(|expected| expected == output && steady)
@@ -44,7 +44,6 @@ pub fn judge_row(test: &CircuitTest, row: &TestRow, outputs: &[bool], steady: &[
     }
 }
 
-/// The verdict on a row at whose end a swarm has no outputs, because a robot failed in it or before.
 pub(super) fn without_outputs(test: &CircuitTest, row: &TestRow, fault: RobotFault) -> RowVerdict {
     let none = vec![false; row.expected.len()];
     RowVerdict {
@@ -55,8 +54,7 @@ pub(super) fn without_outputs(test: &CircuitTest, row: &TestRow, fault: RobotFau
     }
 }
 
-/// Judges the next rows of a test at the level of logic, at most [`Settled::ROWS`]: each is held until nothing changes.
-/// A circuit that oscillates fails if the row checks an output that keeps changing.
+/// At most [`Settled::ROWS`] rows, each held until nothing changes. A checked output that keeps changing fails.
 pub fn judge_logic(test: &CircuitTest, rows: &[TestRow], circuit: &mut Settled) -> impl Iterator<Item = RowVerdict> {
     rows.iter().zip(settle(rows, circuit)).map(|(row, end)| judge_row(test, row, &end.outputs, &end.rests))
 }
@@ -65,23 +63,20 @@ fn settle(rows: &[TestRow], circuit: &mut Settled) -> Vec<SettledRow> {
     circuit.apply(&rows.iter().map(|row| row.inputs.as_slice()).collect::<Vec<_>>())
 }
 
-/// For each row, which output bits come to rest at the level of logic. In physics an output that keeps changing may
-/// have one value for the last cycles of a row by chance.
+/// In physics an output that keeps changing may have one value for the last cycles of a row by chance.
 pub fn resting_outputs(rows: &[TestRow], netlist: &Netlist) -> Vec<Vec<bool>> {
     let mut circuit = Settled::new(netlist);
     rows.chunks(Settled::ROWS).flat_map(|rows| settle(rows, &mut circuit)).map(|end| end.rests).collect()
 }
 
-/// Whether a row passes that ends with the last cycle of a trace.
 pub fn passes(test: &CircuitTest, row: &TestRow, row_hold: &RowHold, trace: &SwarmTrace) -> bool {
     let end = trace.cycles.len();
     let steady = steady_outputs(trace, &(end - row_hold.hold..end), row_hold);
     judge_row(test, row, &trace.cycles[end - 1].outputs, &steady).passed
 }
 
-/// Judges a trace whose cycles are the rows of a test one after another, with the given holds; `clocks[k]` is the clock
-/// of robot `k` in cycles. If the trace ends early, only complete rows are judged; if a robot failed, the others have
-/// failed with it.
+/// `clocks[k]` is the clock of robot `k` in cycles. If the trace ends early, only complete rows are judged; if a robot
+/// failed, the others have failed with it.
 pub fn judge_swarm(
     test: &CircuitTest,
     rows: &[TestRow],
@@ -116,8 +111,7 @@ fn steady_outputs(trace: &SwarmTrace, cycles: &Range<usize>, row_hold: &RowHold)
     row_hold.rests.iter().enumerate().map(|(bit, &rests)| rests && had_one_value(bit)).collect()
 }
 
-/// The robots that were wrong in these cycles, in order of cycles, and whether their stimuli had been stable long
-/// enough.
+/// In order of cycles, and whether their stimuli had been stable long enough.
 fn wrong(trace: &SwarmTrace, cycles: Range<usize>, clocks: &[u32]) -> Vec<(WrongOutput, bool)> {
     let start = start_cycles(clocks.iter().copied());
     let robots = || trace.robots.iter().zip(clocks).enumerate();
@@ -133,8 +127,7 @@ fn wrong(trace: &SwarmTrace, cycles: Range<usize>, clocks: &[u32]) -> Vec<(Wrong
     cycles.flat_map(of_cycle).collect()
 }
 
-/// The margins of robots whose stimuli have been the same for at least their clocks, over a window of cycles: the
-/// cycle, the robot, and voxels a cycle in the correct direction, in order of cycles.
+/// The cycle, the robot, and voxels a cycle in the correct direction, in order of cycles.
 pub(super) fn settled_margins(trace: &SwarmTrace, clocks: &[u32], window: usize) -> Vec<(usize, usize, f64)> {
     let start = start_cycles(clocks.iter().copied());
     let first = start.saturating_sub(1);
@@ -150,7 +143,6 @@ pub(super) fn settled_margins(trace: &SwarmTrace, clocks: &[u32], window: usize)
     (first..trace.cycles.len()).flat_map(robots).collect()
 }
 
-/// Whether robot `k` had sensed the same for `clock` cycles when this cycle ended.
 fn is_settled(trace: &SwarmTrace, cycle: usize, k: usize, clock: usize) -> bool {
     let sensed = trace.cycles[cycle].sensed[k];
     cycle + 1 >= clock && trace.cycles[cycle + 1 - clock..=cycle].iter().all(|cycle| cycle.sensed[k] == sensed)
@@ -167,7 +159,6 @@ mod tests {
         Column::new(name, 1)
     }
 
-    /// An inverter's trace with these inputs and outputs in each cycle.
     fn inverter(cycles: &[(bool, bool)]) -> SwarmTrace {
         SwarmTrace {
             circuit: "inverter".to_owned(),

@@ -6,7 +6,6 @@ use nbc_base::model::{CircuitTest, TestRow};
 use nbc_circuit::NetId;
 use nbc_circuit::waves::{Reading, WaveMachine};
 
-/// A test whose rows are the steps of a wave machine.
 #[derive(Clone, Copy, Debug)]
 pub struct WaveTest<'a> {
     pub test: &'a CircuitTest,
@@ -16,8 +15,7 @@ pub struct WaveTest<'a> {
 }
 
 impl WaveTest<'_> {
-    /// Judges a trace, thread by thread. If it ends early, only complete rows are judged; if a robot failed, the others
-    /// have failed with it.
+    /// If the trace ends early, only complete rows are judged; if a robot failed, the others have failed with it.
     pub fn judge(&self, trace: &SwarmTrace) -> Vec<RowVerdict> {
         let threads = 0..self.machine.period as usize;
         let verdict = |row, thread| self.row(trace, row, thread).or_else(|| self.failed(trace, row, thread));
@@ -31,7 +29,7 @@ impl WaveTest<'_> {
         Some(RowVerdict { thread: Some(thread), cycles, needed: cycles, ..verdict })
     }
 
-    /// The verdict of a row in a thread; `None` if the trace does not have its results.
+    /// `None` if the trace does not have its results.
     pub fn row(&self, trace: &SwarmTrace, row: usize, thread: usize) -> Option<RowVerdict> {
         let machine = self.machine;
         let outputs = 0..machine.outputs.len();
@@ -59,7 +57,6 @@ impl WaveTest<'_> {
         readings.filter_map(cycle).max()
     }
 
-    /// The robots that were wrong in the step of a thread whose last output is read in a cycle.
     fn wrong_outputs(&self, trace: &SwarmTrace, last: usize, thread: usize) -> Vec<WrongOutput> {
         let machine = self.machine;
         let cells: Vec<NetId> = machine.netlist.cells().map(|(id, _)| id).collect();

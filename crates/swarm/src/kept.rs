@@ -22,12 +22,10 @@ struct KeptRobot {
     velocity: Vec<[f64; 2]>,
     center: [f64; 2],
     clock: u32,
-    /// The env step of its fault, and which one it is.
     fault: Option<(u32, u8)>,
     path: Vec<f64>,
 }
 
-/// The faults by their numbers in files.
 const FAULTS: [FaultKind; 3] = [FaultKind::Unstable, FaultKind::NonFinite, FaultKind::Stopped];
 
 impl KeptSwarm {
@@ -48,7 +46,6 @@ impl KeptSwarm {
         self.bits.len()
     }
 
-    /// The outputs of so many robots in each cycle, if the swarm can be of that many.
     pub fn outputs(&self, robots: usize) -> Option<Vec<Vec<bool>>> {
         let fits =
             |text: &String| text.len() == robots.div_ceil(4) && text.bytes().all(|byte| byte.is_ascii_hexdigit());

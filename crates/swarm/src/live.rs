@@ -11,7 +11,6 @@ use crate::{
 use nbc_base::model::{CYCLE_STEPS, Pattern};
 use nbc_sim::{Flock, Simulator, Snapshot};
 
-/// Env steps from sample to sample.
 const SAMPLE_STRIDE: u32 = CYCLE_STEPS / SwarmTrace::SAMPLES_PER_CYCLE as u32;
 
 #[derive(Debug)]
@@ -48,9 +47,8 @@ impl SwarmSnapshot {
 }
 
 impl LiveSwarm {
-    /// A swarm at its start, in a world that is wide enough for `cycles`. An output is the sign of the displacement
-    /// over the last `window` cycles. Poses are recorded if there is room for them.
-    /// Panics when the window is empty.
+    /// In a world wide enough for `cycles`. An output is the sign of the displacement over the last `window` cycles.
+    /// Poses are recorded if there is room for them. Panics when the window is empty.
     pub fn new(simulator: &Simulator, assembly: &Assembly, cycles: usize, window: usize, poses: Option<Room>) -> Self {
         assert!(window > 0, "an output is read over one cycle at least");
         let flock = assembly.flock(simulator, cycles);
@@ -67,8 +65,7 @@ impl LiveSwarm {
         self.forgotten + self.trace.cycles.len()
     }
 
-    /// Forgets the recorded poses, and the trace but for the cycles that the next outputs depend on, so that a swarm
-    /// may run for any time in the same memory.
+    /// Keeps the cycles on which the next outputs depend, so that a swarm may run for any time in the same memory.
     pub fn forget(&mut self) {
         let past = self.trace.cycles.len().saturating_sub(self.window);
         self.trace.forget_first(past);
@@ -83,8 +80,6 @@ impl LiveSwarm {
         self.stops = stops(self.stride);
     }
 
-    /// Simulates a cycle with these bits on the input ports.
-    ///
     /// At the end of each cycle a robot outputs 1 if its center of mass moved in +x over the window, else 0. From the
     /// end of [`Assembly::start_cycles`] on, this bit is the stimulus of its receivers during the next cycle (paper,
     /// section 4).
@@ -100,7 +95,6 @@ impl LiveSwarm {
     }
 
     /// Begins a cycle as [`LiveSwarm::step`] does. Until it has ended, the swarm is as it was before.
-    /// Panics when there are not as many bits as the input ports have.
     pub fn begin(&self, inputs: &[bool]) -> Result<BegunCycle, RobotFault> {
         let bits_in: usize = self.trace.inputs.iter().map(|port| port.width).sum();
         assert_eq!(inputs.len(), bits_in, "a bit for each bit of the input ports");
@@ -108,7 +102,6 @@ impl LiveSwarm {
         self.trace.fault().map_or(Ok(BegunCycle { inputs: inputs.to_vec(), sensed }), Err)
     }
 
-    /// The part of some robots in a begun cycle of the swarm, which was made of this assembly for `cycles`.
     pub fn part(&self, begun: &BegunCycle, assembly: &Assembly, cycles: usize, robots: Range<usize>) -> CyclePart {
         CyclePart {
             setting: assembly.setting(cycles),
@@ -180,8 +173,7 @@ impl LiveSwarm {
         KeptSwarm::new(self.trace.cycles.iter().map(|cycle| &cycle.bits[..]), (0..self.flock.len()).map(robot))
     }
 
-    /// Continues a swarm at its start from a kept one of the same assembly with these inputs; returns whether it fits.
-    /// Earlier paths of the robots are unknown, and stay at 0.
+    /// Continues from a kept swarm with these inputs; returns whether it fits. Earlier paths are unknown: they stay 0.
     pub fn go_on(&mut self, kept: &KeptSwarm, assembly: &Assembly, inputs: &[Vec<bool>]) -> bool {
         let outputs = kept.outputs(assembly.members.len()).filter(|cycles| cycles.len() <= inputs.len());
         let Some(outputs) = outputs else { return false };
@@ -210,7 +202,6 @@ impl LiveSwarm {
         true
     }
 
-    /// Moves the robots from stop to stop of a cycle by `reach`, which gets the number and the env step of each stop.
     fn go_through(&mut self, mut reach: impl FnMut(&mut dyn Flock, usize, u32)) {
         for (at, &stop) in self.stops.iter().enumerate() {
             reach(&mut *self.flock, at, stop);
@@ -226,7 +217,6 @@ impl LiveSwarm {
     }
 }
 
-/// The env steps of a cycle at whose end something is read.
 fn stops(stride: u32) -> BTreeSet<u32> {
     let steps = |stride: u32| (1..=CYCLE_STEPS / stride).map(move |stop| stop * stride);
     steps(SAMPLE_STRIDE).chain(steps(stride)).collect()
@@ -243,7 +233,6 @@ fn begin_recording(trace: &mut SwarmTrace, room: Room, flock: &dyn Flock, cycles
     stride
 }
 
-/// Whether a robot moved in +x over its last `window` cycles, or over all of them if there are fewer.
 fn moved_right(robot: &RobotTrace, window: usize) -> bool {
     let last = robot.com_x.len() - 1;
     let before = last.saturating_sub(window * SwarmTrace::SAMPLES_PER_CYCLE);

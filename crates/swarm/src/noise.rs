@@ -18,7 +18,6 @@ pub(crate) struct RobotNoise<'a> {
     robot: u64,
 }
 
-/// The kinds of random noise; each has its own stream.
 #[derive(Clone, Copy)]
 enum NoiseKind {
     Start,
@@ -73,7 +72,6 @@ impl<'a> RobotNoise<'a> {
         Schedule { spells: spells.map(|same| Spell { steps: same.len() as u32, ..same[0].clone() }).collect() }
     }
 
-    /// A body as it is in the world: its actuators and sensors move less, and some not at all.
     pub(crate) fn worn(self, body: &Body) -> Body {
         let WorldNoise { weak, dead, .. } = *self.noise;
         if weak <= 0.0 && dead <= 0.0 {
@@ -118,7 +116,6 @@ fn weakened(material: &Material, weak: f64) -> Material {
     Material { name: material.name.clone(), kind }
 }
 
-/// An actuator that stays at its rest width, as stiff as others.
 fn dead_material() -> Material {
     let still = Drive { period: 1, phase: 0.0, low: 1.0, high: 1.0 };
     Material { name: DEAD.to_owned(), kind: MaterialKind::Actuator(still) }

@@ -5,11 +5,9 @@ use crate::characterize::errors_in;
 use nbc_base::model::{PhysicsWorld, Robot, SafeRadius};
 use nbc_sim::Simulator;
 
-/// The factors of the changes that are tried, in order.
 const RADII: [f64; 10] = [0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0];
 
-/// The largest of the factors up to which a robot makes no errors in any world of the sample, and its errors at factor
-/// 1.
+/// The largest factor up to which no world of the sample shows an error, and the errors at factor 1.
 pub fn safe_radius(simulator: &Simulator, robot: &Robot, sample: &WorldSample, worlds: u32) -> SafeRadius {
     let errors = |radius: f64| {
         let scaled = WorldSample { variation: sample.variation.times(radius), ..*sample };

@@ -14,11 +14,9 @@ pub struct Room {
 }
 
 impl Room {
-    /// For a swarm: all robots, if necessary with few frames.
     pub const SWARM: Self = Self { bytes: 1_500_000, strides: &[7, 12, 21, 42, 84] };
     /// For a swarm that is shown while it runs: all robots with many frames. The recording is emptied in every cycle.
     pub const LIVE: Self = Self { bytes: usize::MAX, strides: &[7] };
-    /// For gaits of elites: as many as fit with many frames.
     pub const GAITS: Self = Self { bytes: 2_400_000, strides: &[7, 12, 14] };
 
     /// The stride, and the number of robots, for which there is room; `points` are those of each robot.
@@ -50,7 +48,6 @@ pub struct Recorded {
     pub points: usize,
     /// Hundredths of a voxel: x from the robot's start and height above the ground, point by point, frame by frame.
     pub frames: Vec<i16>,
-    /// The origin of its x: its leftmost point at the start of the recording.
     start: f64,
 }
 
@@ -60,8 +57,7 @@ impl Recording {
         Self { frames_per_cycle: CYCLE_STEPS / stride, robots }
     }
 
-    /// Forgets the frames. The origin of each robot's x is now its leftmost point, so that it never leaves the range
-    /// of the numbers, however far it walks.
+    /// The origin of each robot's x is now its leftmost point, so that it stays in range however far it walks.
     pub fn restart(&mut self, flock: &dyn Flock) {
         for recorded in &mut self.robots {
             recorded.frames.clear();

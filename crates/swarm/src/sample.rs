@@ -5,17 +5,14 @@ use rand_chacha::ChaCha8Rng;
 
 use nbc_base::model::{PhysicsWorld, Variation};
 
-/// A sample of worlds around one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorldSample {
-    /// The varied factors, each with its largest change.
     pub variation: Variation,
     pub seed: u64,
 }
 
 impl WorldSample {
-    /// World `number` of the sample. It draws the same numbers for any variation, so worlds of one number and seed
-    /// differ in the same directions, and by less where the variation is smaller.
+    /// World `number` draws the same numbers for any variation, so worlds of one seed differ in the same directions.
     pub fn world(&self, around: &PhysicsWorld, number: usize) -> PhysicsWorld {
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         rng.set_stream(number as u64);

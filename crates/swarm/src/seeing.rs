@@ -12,11 +12,9 @@ use nbc_sim::Simulator;
 
 const STIMULI: usize = 2;
 
-/// How far a body walks before images, in the direction of a behavior.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImageDistance {
-    /// The direction before the images of each set, by the pattern that numbers the set: of all behaviors that are not
-    /// the same for all sets the one for which the least distance is greatest.
+    /// By pattern, the number of the set: of behaviors that tell sets apart, that with the greatest least distance.
     pub behavior: Behavior,
     /// The least distance in the direction of the behavior, in voxels; negative if the body walked the other way.
     pub least: f64,
@@ -25,7 +23,6 @@ pub struct ImageDistance {
 }
 
 impl ImageDistance {
-    /// The distance of a body with these displacements, each before an image of the set with that number.
     pub fn of(sets: &ImageSets, walked: &[(Pattern, f64)]) -> Self {
         let all = sets.behaviors().map(|behavior| (behavior, least(behavior, walked.iter().copied())));
         let best = all.fold(None, |best: Option<(Behavior, f64)>, one| match best {
@@ -42,7 +39,6 @@ impl ImageDistance {
     }
 }
 
-/// The least of these distances in the direction of a behavior.
 fn least(behavior: Behavior, walked: impl Iterator<Item = (Pattern, f64)>) -> f64 {
     walked.map(|(set, moved)| moved * behavior.direction(set).sign()).fold(f64::INFINITY, f64::min)
 }
@@ -64,7 +60,6 @@ impl ImageSets {
         self.0.len()
     }
 
-    /// Whether they are sets that a behavior can tell apart, numbered from 0.
     pub fn can_be_told(&self) -> bool {
         let first = [Pattern::new(&[false]), Pattern::new(&[true])];
         let all: Vec<Pattern> = Pattern::all(STIMULI).collect();
@@ -76,7 +71,6 @@ impl ImageSets {
         if self.0.contains(&pattern) { pattern } else { Pattern::new(&[pattern.has(0)]) }
     }
 
-    /// The behaviors that depend on the set alone and are not the same for all sets.
     fn behaviors(&self) -> impl Iterator<Item = Behavior> + '_ {
         let depends = move |b: &Behavior| {
             b.patterns().all(|pattern| b.direction(pattern) == b.direction(self.of_pattern(pattern)))
@@ -134,8 +128,7 @@ impl Viewer<'_> {
     }
 }
 
-/// The result of each task. Images with fresh starts are shown in rounds, one of each set, so that a body that cannot
-/// enter the archive is dropped after some of them.
+/// Images with fresh starts come in rounds, one of each set, so that a hopeless body is dropped after some of them.
 pub(crate) fn evaluate(
     simulator: &Simulator,
     protocol: &EvaluationProtocol,
@@ -167,7 +160,6 @@ pub(crate) fn evaluate(
     viewers.into_iter().map(result).collect()
 }
 
-/// The images in the order in which they are shown: those with fresh starts in rounds, one of each set.
 fn rounds(protocol: &EvaluationProtocol) -> Vec<Schedule> {
     let spells = &protocol.variable.spells;
     if protocol.shown == ImageOrder::InTurn {

@@ -13,9 +13,7 @@ pub const MEASUREMENT_COST: u64 = 4;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Selection {
-    /// Elites of a behavior that are screened, the fittest first.
     pub tries: usize,
-    /// The number of these that are measured in full.
     pub finalists: usize,
     pub max_error: f64,
     /// The margin in voxels per cycle from which on a robot is better than all below it, whatever their clocks.
@@ -31,17 +29,14 @@ pub struct RobotCandidate {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Selected {
     Robot(Box<Robot>),
-    /// A robot with more errors than accepted.
     Erring(Box<Robot>),
     /// The best elite walks otherwise in the paper's fixed simulations.
     Other(Behavior),
     Faulty(Fault),
-    /// There is no elite with this behavior.
     Missing,
 }
 
 impl Selection {
-    /// Chooses the elites to be screened: the fittest, each body once.
     pub fn candidates_of(&self, mut candidates: Vec<RobotCandidate>) -> Vec<RobotCandidate> {
         candidates.sort_by(|a, b| worth(&b.elite).total_cmp(&worth(&a.elite)));
         let mut chosen: Vec<RobotCandidate> = Vec::new();
@@ -53,13 +48,11 @@ impl Selection {
         chosen
     }
 
-    /// The amount of work for this many candidates, in the unit reported by [`Selection::select`].
     pub fn cost(&self, candidates: usize) -> u64 {
         candidates as u64 + MEASUREMENT_COST * candidates.min(self.finalists) as u64
     }
 
-    /// Screens the candidates, measures the best of them, and takes the best of those; reports the work done to
-    /// `observe`. `None` if the work was stopped; `run` is the number that the executor asks for.
+    /// Reports the work done to `observe`. `None` if it was stopped; `run` is the number that the executor asks for.
     pub fn select(
         &self,
         executor: &dyn Executor,

@@ -10,7 +10,6 @@ pub(super) struct Sensing {
     start: usize,
     beat: usize,
     outputs: Vec<bool>,
-    /// What each robot senses in the first cycles instead of its sources.
     held: Vec<Vec<Vec<bool>>>,
     noise: WorldNoise,
 }
@@ -27,8 +26,7 @@ impl Sensing {
         }
     }
 
-    /// A swarm with these outputs in its first cycles under these inputs: what its robots sense then, and its trace
-    /// without their paths.
+    /// What its robots sense in these first cycles, and its trace without their paths.
     pub fn replayed(assembly: &Assembly, cycles: &[Vec<bool>], inputs: &[Vec<bool>]) -> (Self, SwarmTrace) {
         let mut trace = SwarmTrace::begin(assembly);
         let mut sensing = Self::of(assembly);
@@ -46,7 +44,6 @@ impl Sensing {
         (0..trace.robots.len()).map(|robot| self.sensed(trace, cycle, robot, inputs)).collect()
     }
 
-    /// The stimuli of a robot. If it misses them, it keeps those of the cycle before.
     fn sensed(&self, trace: &SwarmTrace, cycle: usize, robot: usize, inputs: &[bool]) -> Pattern {
         match trace.cycles.last() {
             Some(last) if RobotNoise::new(&self.noise, robot).misses(cycle) => last.sensed[robot],

@@ -16,7 +16,6 @@ pub struct Settling<'a> {
     members: &'a [Member],
     /// Cycles after which the output of each robot is correct, with the window over which it is measured.
     clocks: Vec<usize>,
-    /// Cycles at the start in which robots sense the start values of the others.
     start: usize,
     /// The stimuli of each robot, and the number of cycles for which they have been known and unchanged.
     sensed: Vec<(Vec<TernaryBit>, usize)>,
@@ -38,8 +37,7 @@ impl<'a> Settling<'a> {
         }
     }
 
-    /// The number of cycles of these inputs after which every robot's output is correct and stays correct; `None` if
-    /// that is not certain after `most` cycles. The swarm is not changed.
+    /// After so many cycles every output is and stays correct; `None` if uncertain after `most`. Changes nothing.
     pub fn cycles_to_settle(&self, inputs: &[bool], most: usize) -> Option<usize> {
         let mut ahead = self.clone();
         let mut settled = 1;
@@ -64,7 +62,6 @@ impl<'a> Settling<'a> {
         &self.bits
     }
 
-    /// One cycle. In the first ones robots sense the start values of the others.
     fn advance(&mut self, inputs: &[bool]) {
         let starting = self.cycles < self.start;
         let others: Vec<TernaryBit> = match starting {
@@ -95,8 +92,7 @@ impl<'a> Settling<'a> {
         if self.cycles + 1 < self.start || !is_right { None } else { answer }
     }
 
-    /// Whether every robot has sensed the same for as long as it needs. If its outputs were the same in the cycle
-    /// before, they stay.
+    /// Whether all have sensed the same for as long as they need. Outputs as in the cycle before stay.
     fn is_at_rest(&self) -> bool {
         self.cycles > self.start && self.sensed.iter().zip(&self.clocks).all(|((_, held), clock)| held >= clock)
     }

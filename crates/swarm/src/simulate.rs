@@ -11,8 +11,7 @@ pub struct SwarmConditions {
     pub poses: Option<Room>,
 }
 
-/// Simulates a swarm in its world under these conditions until a robot fails, calling `observe` with the number of
-/// finished cycles after each cycle.
+/// Ends when a robot fails. Calls `observe` with the number of finished cycles after each cycle.
 /// Panics when a cycle's inputs are not as many as the assembly's, or the window is empty.
 pub fn simulate(
     simulator: &Simulator,

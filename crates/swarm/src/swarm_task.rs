@@ -16,17 +16,14 @@ pub struct SwarmTask {
     pub conditions: SwarmConditions,
 }
 
-/// The output of each robot at the end of each cycle.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SwarmBits {
     /// The cycles in order; fewer than those of the task if it was stopped or a robot failed.
     #[serde(with = "bit_rows")]
     pub cycles: Vec<Vec<bool>>,
-    /// The robot whose simulation failed after these cycles, and its fault.
     pub fault: Option<(usize, Fault)>,
 }
 
-/// The part of a robot that the bits of its swarm depend on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlainMember {
     pub body: Body,
@@ -37,10 +34,8 @@ pub struct PlainMember {
     pub held: Vec<Vec<bool>>,
 }
 
-/// A [`SwarmTask`] as data, without names.
 #[derive(Serialize, Deserialize)]
 struct Written {
-    /// One for each member.
     #[serde(with = "bodies")]
     bodies: Vec<Body>,
     members: Vec<WrittenMember>,
@@ -103,8 +98,7 @@ impl TryFrom<Written> for SwarmTask {
 }
 
 impl SwarmTask {
-    /// The simulation of a swarm under these bits of the input ports in each cycle, with displacements measured over
-    /// `window` cycles.
+    /// `inputs` are the bits of the input ports in each cycle; displacements are measured over `window` cycles.
     pub fn of(assembly: &Assembly, inputs: Vec<Vec<bool>>, window: usize) -> Self {
         let plain = |member: &Member| PlainMember {
             body: member.robot.body.clone(),
@@ -118,7 +112,6 @@ impl SwarmTask {
         Self { assembly: Assembly { beat: assembly.beat, ..task.assembly }, ..task }
     }
 
-    /// The simulation of these robots, with the bodies that they have in this world.
     pub fn new(members: Vec<PlainMember>, world: PhysicsWorld, inputs: Vec<Vec<bool>>, window: usize) -> Self {
         let width = inputs.first().map_or(0, Vec::len);
         let ports = (width > 0).then(|| Column::new("", width));
@@ -144,7 +137,6 @@ impl SwarmTask {
 }
 
 impl PlainMember {
-    /// The robot with nothing but what its simulation needs.
     pub(super) fn nameless(self) -> Member {
         let displacement = Displacements::zero(self.senses.len());
         let robot = Robot {
@@ -167,7 +159,6 @@ impl SwarmBits {
         Self { fault: trace.first_fault(), cycles: trace.cycles.into_iter().map(|cycle| cycle.bits).collect() }
     }
 
-    /// The trace of the swarm through these inputs, without the paths of its robots.
     pub fn trace(&self, assembly: &Assembly, inputs: &[Vec<bool>]) -> SwarmTrace {
         let mut trace = Sensing::replayed(assembly, &self.cycles, inputs).1;
         if let Some((robot, fault)) = self.fault {
@@ -182,7 +173,6 @@ mod tests {
     use super::*;
     use nbc_base::model::{GroundProfile, Palette, WorldFactors, WorldNoise};
 
-    /// A latch of two robots, with a start value, in a world with everything that can go wrong.
     fn latch() -> Assembly {
         let body = Body::parse(&["343", "563"], &Palette::paper()).unwrap();
         let member = |net: &str, senses: [StimulusSource; 2], start| {

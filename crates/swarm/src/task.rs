@@ -10,10 +10,8 @@ use nbc_base::model::{Behavior, Body, Fault};
 /// Work whose result depends on it alone.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Task {
-    /// The evaluation of a candidate of a search.
     Evaluation(Arc<EvaluationProtocol>, EvaluationTask),
-    /// A body tried in short sequences as a gate with a behavior, with clocks of at most `most` cycles (see
-    /// [`screen`](crate::screen)).
+    /// In short sequences, as a gate with a behavior (see [`screen`](crate::screen)).
     Screening {
         body: Body,
         behavior: Behavior,
@@ -22,20 +20,16 @@ pub enum Task {
     },
     /// All measurements of a body for its robot file (see [`measure`](crate::measure)).
     Measurement(Body),
-    /// A swarm simulated through its inputs.
     Swarm(Box<SwarmTask>),
 }
 
 /// The result of a task of the same kind.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum TaskResult {
-    /// The outcome of the candidate.
     Evaluation(Evaluated),
     /// The clock and the margin, if there is a clock without errors.
     Screening(Result<Option<(u32, f64)>, Fault>),
-    /// The character of the body and its walk, unless it became unstable.
     Measurement(Result<Measurement, Fault>),
-    /// The outputs of the robots.
     Swarm(SwarmBits),
 }
 

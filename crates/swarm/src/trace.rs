@@ -26,7 +26,6 @@ pub struct RobotTrace {
     /// The names of the calls that the robot comes from, the outermost first.
     #[serde(skip)]
     pub block: Vec<String>,
-    /// The gate it plays, of its stimuli in the order of `senses`.
     #[serde(serialize_with = "as_text")]
     pub function: Function,
     pub robot: String,
@@ -76,7 +75,6 @@ impl SwarmTrace {
         Value::of_ports(&self.inputs, self.cycles[cycle].inputs.iter().copied().map(Some), &[])
     }
 
-    /// Forgets the first cycles. Recorded poses stay.
     pub fn forget_first(&mut self, cycles: usize) {
         self.cycles.drain(..cycles);
         for robot in &mut self.robots {
@@ -96,7 +94,6 @@ impl SwarmTrace {
         Some(RobotFault { net: net.clone(), robot: robot.clone(), cycle, env_step, kind })
     }
 
-    /// Forgets how the robots moved in a cycle that has no outputs.
     pub(super) fn forget_unfinished(&mut self) {
         for robot in &mut self.robots {
             robot.com_x.truncate(robot.com_x.len() - self.samples_per_cycle);
@@ -104,14 +101,12 @@ impl SwarmTrace {
         self.recording.forget_cycle();
     }
 
-    /// Voxels that robot `k` walked in a cycle.
     pub fn displacement(&self, k: usize, cycle: usize) -> f64 {
         let path = &self.robots[k].com_x;
         path[(cycle + 1) * self.samples_per_cycle] - path[cycle * self.samples_per_cycle]
     }
 
-    /// All robots, the most interesting first: those shown by outputs, those of named nets (outer ones before those
-    /// inside circuits), then the others.
+    /// Those shown by outputs, then those of named nets (outer ones before those inside circuits), then the others.
     pub fn by_interest(&self) -> Vec<usize> {
         let rank = |robot: usize| {
             let net = &self.robots[robot].net;

@@ -1,9 +1,7 @@
 //! All limits of what texts from outside make, with their names; docs/limits.md has the same table.
 
-/// Declares the limits, each with a name, the most that is permitted, and what is counted, in words.
 macro_rules! limits {
     ($($name:ident = $most:expr, $things:literal, $scope:literal;)*) => {
-        /// What is counted.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Limit {
             $($name,)*
@@ -24,7 +22,6 @@ macro_rules! limits {
                 }
             }
 
-            /// Where it is counted, in words that follow those of what is counted.
             pub const fn scope(self) -> &'static str {
                 match self {
                     $(Self::$name => $scope,)*

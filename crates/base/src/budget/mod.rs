@@ -9,13 +9,11 @@ pub use limit::{CYCLE_BITS, Limit};
 use crate::source::CancelFlag;
 use crate::source::grouped;
 
-/// What one piece of work has made so far, such as a check of a program or the building of a circuit.
 #[derive(Clone, Debug)]
 pub struct WorkBudget {
     /// By the places of the limits in [`Limit::ALL`].
     used: [u64; Limit::ALL.len()],
     cancel: CancelFlag,
-    /// What was made since the flag was looked at.
     unseen: u64,
 }
 
@@ -39,7 +37,6 @@ impl WorkBudget {
         Self { used: [0; Limit::ALL.len()], cancel, unseen: 0 }
     }
 
-    /// Counts what is about to be made.
     pub fn take(&mut self, limit: Limit, amount: u64) -> Result<(), OverBudget> {
         self.unseen = self.unseen.saturating_add(amount);
         if self.unseen > BETWEEN_LOOKS {
@@ -65,7 +62,6 @@ impl Limit {
         if amount <= self.most() { Ok(()) } else { Err(OverBudget::Limit(self)) }
     }
 
-    /// Its row in the table of docs/limits.md.
     pub fn row(self) -> String {
         format!("| {} {} | {} |", self.things(), self.scope(), grouped(self.most()))
     }

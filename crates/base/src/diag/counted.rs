@@ -1,6 +1,5 @@
 //! Counts in messages and reports.
 
-/// A count with its noun: `1 cycle`, `2 cycles`, `2 latches`, `2 bodies`.
 pub fn counted(count: usize, noun: &str) -> String {
     if count == 1 {
         return format!("1 {noun}");

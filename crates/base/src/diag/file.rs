@@ -24,8 +24,7 @@ impl Diagnostic {
     }
 }
 
-/// The file that may have been meant by a path without a file: one in the same folder with the same extension. A name
-/// without an extension may lack `.nb`.
+/// The file that may have been meant by a path without a file: one in the same folder with the same extension.
 pub fn similar_file(world: &dyn SourceWorld, path: &str) -> Suggestion {
     let (folder, name) = path.rsplit_once('/').map_or(("", path), |(folder, name)| (&path[..=folder.len()], name));
     let (stem, ending) = name.rsplit_once('.').unwrap_or((name, "nb"));
@@ -60,7 +59,6 @@ pub fn folder_error(error: &FileError) -> &str {
     }
 }
 
-/// The operating system's message in plain words, without error numbers.
 pub fn io_words(error: &io::Error) -> String {
     use io::ErrorKind;
     let plain = match error.kind() {
@@ -82,7 +80,6 @@ pub fn io_words(error: &io::Error) -> String {
     words.split(" (os error").next().unwrap_or_default().to_owned()
 }
 
-/// A size in the largest unit that divides it.
 fn size(bytes: u64) -> String {
     let units = [(30, "GB"), (20, "MB"), (10, "kB")];
     let fitting = units.into_iter().find(|(shift, _)| bytes >= 1 << shift && bytes.trailing_zeros() >= *shift);

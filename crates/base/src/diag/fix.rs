@@ -6,7 +6,6 @@ use crate::source::{FileId, Span};
 pub struct Edit {
     /// What is replaced; empty where text is inserted.
     pub span: Span,
-    /// The new text; empty where text is removed.
     pub text: String,
 }
 
@@ -15,7 +14,6 @@ pub struct Edit {
 pub struct Fix {
     /// What the edits do, as an editor shows it; lower case, without a full stop.
     pub title: String,
-    /// The edits, in order of place.
     pub edits: Vec<Edit>,
 }
 
@@ -25,14 +23,12 @@ impl Fix {
         Self { title: format!("replace with `{}`", text.trim()), edits: vec![Edit { span, text }] }
     }
 
-    /// Inserts `text` before `span`.
     pub fn insert(span: Span, text: impl Into<String>) -> Self {
         let text = text.into();
         let span = Span { end: span.start, ..span };
         Self { title: format!("insert `{}`", text.trim()), edits: vec![Edit { span, text }] }
     }
 
-    /// Removes `span`, which contains `what`.
     pub fn remove(span: Span, what: &str) -> Self {
         Self { title: format!("remove {what}"), edits: vec![Edit { span, text: String::new() }] }
     }

@@ -34,8 +34,7 @@ fn shown<'a>(diagnostics: &[Diagnostic], sources: &'a Sources) -> Shown<'a> {
     files.into_iter().map(|file| (file, visible_in_place(&sources.file(file).text))).collect()
 }
 
-/// Diagnostics as text, in their order, each with an excerpt of the source. If there are many, only the first are shown
-/// with the number of the others.
+/// Each diagnostic with an excerpt of the source; of many, only the first, with the number of the others.
 pub fn text(diagnostics: &[Diagnostic], sources: &Sources, color: bool) -> String {
     let texts = shown(diagnostics, sources);
     let shown: String = diagnostics
@@ -59,8 +58,7 @@ pub fn text(diagnostics: &[Diagnostic], sources: &Sources, color: bool) -> Strin
     }
 }
 
-/// Renders with the severity and the code before the message: `error[unknown]: …`. Lines are not wrapped, so that paths
-/// and commands can be copied.
+/// `error[unknown]: …` stands before the message. Lines are not wrapped, so that paths and commands can be copied.
 fn handler(report: &Report<'_>, color: bool) -> GraphicalReportHandler {
     let mut theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
     let marks = &mut theme.characters;
@@ -82,7 +80,6 @@ struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
-    /// The diagnostic, then its labels in other files.
     fn all(diagnostic: &'a Diagnostic, sources: &'a Sources, texts: &'a Shown<'_>) -> Vec<Self> {
         let file = diagnostic.labels.first().map(|label| label.span.file);
         let (here, elsewhere): (Vec<_>, Vec<_>) =
@@ -141,7 +138,6 @@ struct Excerpt<'a> {
     text: &'a str,
 }
 
-/// The most bytes shown on either side of a span in one line.
 const MARGIN: usize = 60;
 
 impl<'a> Excerpt<'a> {
@@ -155,8 +151,7 @@ impl<'a> Excerpt<'a> {
         text.floor_char_boundary(offset.min(text.len().saturating_sub(1)))
     }
 
-    /// The bytes shown for a span: whole lines with their neighbors if they are short, else the nearest part of the
-    /// line.
+    /// Whole lines with their neighbors if they are short, else the nearest part of the line.
     fn range(&self, span: &SourceSpan, before: usize, after: usize) -> std::ops::Range<usize> {
         let text = self.text;
         let start = span.offset().min(text.len());

@@ -3,7 +3,6 @@
 /// The most errors with a suggestion, because each suggestion compares all names.
 pub const MOST: usize = 100;
 
-/// The most letters of a name that are compared.
 const LETTERS: usize = 64;
 
 /// The most similar of `known`, if it is similar enough; of equally similar ones, the first.
@@ -14,7 +13,6 @@ pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     scored.min_by_key(|(distance, _)| *distance).map(|(_, name)| name)
 }
 
-/// What may have been meant by an unknown name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Suggestion {
     #[default]
@@ -45,7 +43,6 @@ pub fn alternatives<S: AsRef<str>>(words: &[S], last: &str) -> String {
     join(&quoted, last)
 }
 
-/// Phrases as a list: "a, b or c".
 pub fn join<S: AsRef<str>>(phrases: &[S], last: &str) -> String {
     match phrases {
         [] => String::new(),
@@ -61,21 +58,18 @@ fn letters(text: &str) -> impl Iterator<Item = char> {
     text.chars().flat_map(char::to_lowercase).take(LETTERS)
 }
 
-/// Measures the distance of names from a word. Unlike `strsim` it stops at the limit, because a misspelled word is
-/// compared with every name of a program.
+/// Unlike `strsim` it stops at the limit, because a misspelled word is compared with every name of a program.
 struct Measure {
     word: Vec<char>,
     limit: usize,
     name: Vec<char>,
-    /// The edit distances from prefixes of the word (this one, and one and two letters shorter) to the prefixes of the
-    /// name.
+    /// Edit distances from prefixes of the word (this one, and one and two letters shorter) to those of the name.
     rows: [Vec<usize>; 3],
 }
 
 impl Measure {
     /// The number of letters to change, add, drop or exchange, if it is within the limit.
     fn distance(&mut self, name: &str) -> Option<usize> {
-        // The lengths alone rule out most names.
         if name.is_ascii() && name.len().min(LETTERS).abs_diff(self.word.len()) > self.limit {
             return None;
         }
@@ -95,7 +89,6 @@ impl Measure {
         (edits <= self.limit && edits < self.word.len().max(self.name.len())).then_some(edits)
     }
 
-    /// The row for one more letter of the word.
     fn advance(&mut self, i: usize) {
         self.rows.rotate_right(1);
         let [row, last, last_but_one] = &mut self.rows;

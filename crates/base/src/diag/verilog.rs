@@ -5,7 +5,6 @@ use super::{Code, Diagnostic, Severity, Suggestion};
 use crate::source::{SourceFile, Span, VerilogError, VerilogModule, VerilogNote, VerilogPlace};
 
 impl Diagnostic {
-    /// The errors of Verilog files that could not be read, each at its place if there is one.
     pub fn unread_verilog(files: &[&SourceFile], error: &VerilogError) -> Vec<Self> {
         let name = &files[0].name;
         vec![match error {
@@ -41,7 +40,6 @@ impl Diagnostic {
         }]
     }
 
-    /// What a reader says of Verilog files.
     pub fn of_verilog(files: &[&SourceFile], note: &VerilogNote) -> Self {
         let fault = at_place(files, note.place.as_ref(), note.message.clone(), &note.label);
         let severity = if note.is_error { Severity::Error } else { Severity::Warning };
@@ -55,7 +53,6 @@ impl Diagnostic {
         self.at_verilog(files, place)
     }
 
-    /// The same fault at a place of a Verilog file, if it is known.
     pub fn at_verilog(self, files: &[&SourceFile], place: Option<&VerilogPlace>) -> Self {
         let label = self.labels.into_iter().next().map(|label| label.text).unwrap_or_default();
         let message = without_internal_names(&self.message);
@@ -67,7 +64,6 @@ impl Diagnostic {
     }
 }
 
-/// A fault at a place of one of the files, or of one that they include.
 fn at_place(files: &[&SourceFile], place: Option<&VerilogPlace>, message: String, label: &str) -> Diagnostic {
     let about = if label.is_empty() { message.clone() } else { format!("{message}: {label}") };
     let Some(VerilogPlace { file, line, columns }) = place else {
@@ -88,7 +84,6 @@ fn at_place(files: &[&SourceFile], place: Option<&VerilogPlace>, message: String
     Diagnostic::new(Code::CircuitFile, message, Span::new(known.id, first, last), label)
 }
 
-/// A message in which nets that only Yosys knows have no name.
 fn without_internal_names(message: &str) -> String {
     let parts = message.split('`').enumerate();
     let parts = parts.map(|(at, part)| match at % 2 {

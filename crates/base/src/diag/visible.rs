@@ -20,8 +20,7 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.chars().map(shown).collect())
 }
 
-/// Addresses without their users and passwords: `nats://me:secret@host,nats://other` becomes
-/// `nats://host,nats://other`. A comma or an `@` may be part of a password.
+/// `nats://me:secret@host,nats://other` becomes `nats://host,nats://other`. Passwords may contain `,` and `@`.
 pub fn without_passwords(addresses: &str) -> String {
     let mut shown: Vec<String> = Vec::new();
     for part in addresses.split(',') {
@@ -39,8 +38,7 @@ pub fn without_passwords(addresses: &str) -> String {
     shown.join(",")
 }
 
-/// Like [`visible`], but the offset of every byte stays the same, for excerpts with places in them. A carriage return
-/// at the end of a line becomes a space or the line break itself.
+/// Like [`visible`], but the offset of every byte stays the same, for excerpts with places in them.
 #[cfg(feature = "render")]
 pub(super) fn visible_in_place(text: &str) -> Cow<'_, str> {
     if !text.contains(|c| is_hidden(c) && c != '\t') {

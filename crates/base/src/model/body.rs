@@ -21,7 +21,6 @@ pub struct Body {
     palette: Arc<Palette>,
 }
 
-/// A body as data: its rows, and the meaning of their codes.
 #[derive(Serialize, Deserialize)]
 struct Written(Vec<String>, Arc<Palette>);
 
@@ -64,8 +63,7 @@ impl Body {
         Ok(Self::new(width, height, codes.to_vec(), Arc::clone(palette)))
     }
 
-    /// A square body of the paper's eight materials in turn, for measurements of speed. Different values of `shift`
-    /// make different bodies.
+    /// A square body of the paper's eight materials in turn, for measurements of speed.
     pub fn patchwork(side: usize, shift: usize) -> Self {
         const TURN: [u8; 9] = [3, 4, 2, 7, 6, 1, 5, 8, 3];
         let codes = (0..side * side).map(|i| TURN[(i + i / side + shift) % TURN.len()]).collect();
@@ -116,7 +114,6 @@ impl Body {
         self.codes[row * self.width + column]
     }
 
-    /// All codes in reading order.
     pub fn codes(&self) -> &[u8] {
         &self.codes
     }
@@ -144,7 +141,6 @@ impl Body {
         Self { codes, ..self.clone() }
     }
 
-    /// The same shape with every code `k` replaced by `to(k)` of the same palette.
     pub fn recoded(&self, to: impl Fn(u8) -> u8) -> Self {
         let codes = self.codes.iter().map(|&code| to(code)).collect();
         Self::new(self.width, self.height, codes, Arc::clone(&self.palette))

@@ -32,17 +32,14 @@ pub struct MemoryArray {
     pub net: NetSlot,
     pub words: SizeId,
     pub width: SizeId,
-    /// The file with the first contents, as its place in [`super::Program::files`].
     pub contents: Option<usize>,
     pub reads: Vec<MemoryRead>,
     pub writes: Vec<MemoryWrite>,
 }
 
-/// A read: the word at the address is there as long as the address is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MemoryRead {
     pub address: NetSlot,
-    /// The word, which nothing else drives.
     pub data: NetSlot,
 }
 
@@ -56,8 +53,7 @@ pub struct MemoryWrite {
 }
 
 impl Circuit {
-    /// The first expression of the range that ends with `root`. The range contains all parts of `root`, children before
-    /// parents.
+    /// The first expression of the contiguous range that ends with `root`, children before parents.
     pub fn first_leaf(&self, root: ExpressionId) -> ExpressionId {
         let mut at = root;
         while let Some(first) = self.expressions[at.0 as usize].first_part() {
@@ -67,23 +63,18 @@ impl Circuit {
     }
 }
 
-/// The place of an expression in [`Circuit::expressions`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ExpressionId(pub u32);
 
-/// The place of an integer in [`Circuit::sizes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SizeId(pub u32);
 
-/// The place of a net in [`Circuit::nets`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct NetSlot(pub u32);
 
-/// The place of a circuit in [`super::Program::circuits`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct CircuitId(pub u32);
 
-/// A width parameter: an integer known when the circuit is built.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     pub name: String,
@@ -95,7 +86,6 @@ pub struct Parameter {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Net {
     pub name: String,
-    /// The place of the declaration or of the first driver.
     pub span: Span,
     /// The declared width in bits; of an array, that of a word. `None` means one bit for a port, and the width of the
     /// driver for another net.
@@ -148,7 +138,6 @@ pub enum Statement {
     },
 }
 
-/// A comparison of two integers when a circuit is built.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Condition {
     pub left: SizeId,
@@ -203,9 +192,7 @@ pub struct Target {
     pub net: Option<NetSlot>,
     /// The word driven, if the net is an array; `None` is all of it.
     pub word: Option<SizeId>,
-    /// The bits driven of the net or word, highest and lowest; `None` is all of it.
     pub bits: Option<(SizeId, SizeId)>,
-    /// The value before the first cycle (`init`), if it is given.
     pub start: Option<SizeId>,
     pub span: Span,
 }
@@ -218,8 +205,7 @@ pub struct Size {
 }
 
 impl Size {
-    /// The first integer of the range that ends with `root`. The range contains all parts of `root`, children before
-    /// parents.
+    /// The first integer of the contiguous range that ends with `root`, children before parents.
     pub fn first_part(sizes: &[Self], root: SizeId) -> SizeId {
         let mut at = root;
         loop {
@@ -236,7 +222,6 @@ pub enum SizeKind {
     Literal(i128),
     /// A parameter or loop variable, by slot.
     Variable(u32),
-    /// The number of bits needed for that many different values.
     Log2(SizeId),
     Binary(SizeOperator, SizeId, SizeId),
 }
@@ -282,7 +267,6 @@ pub enum ExpressionKind {
     Bits(Vec<bool>),
     Number {
         width: SizeId,
-        /// An unsigned number that fits into the width.
         value: u128,
     },
     Computed {
@@ -297,10 +281,8 @@ pub enum ExpressionKind {
     Slice {
         net: NetSlot,
         word: Option<SizeId>,
-        /// The highest and the lowest bit.
         bits: Option<(SizeId, SizeId)>,
     },
-    /// The word of an array, or the bit of another net, that a value selects.
     Element {
         net: NetSlot,
         index: ExpressionId,
@@ -314,7 +296,6 @@ pub enum ExpressionKind {
     },
     Operation {
         operator: Operator,
-        /// The operands: one for `not`, two or more for the others.
         operands: Vec<ExpressionId>,
     },
     Choice {
@@ -330,25 +311,21 @@ pub enum ExpressionKind {
         /// The operands, one for each input port; `None` to use the default.
         operands: Vec<Option<ExpressionId>>,
     },
-    /// A truth table over the bits of the inputs.
     Table {
         /// The inputs, most significant first.
         inputs: Vec<ExpressionId>,
-        /// The outputs that are expressions.
         outputs: Vec<ExpressionId>,
         /// The index in [`Circuit::tables`].
         table: usize,
     },
 }
 
-/// A number without a width of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FreeNumber {
     Literal(u128),
     Size(SizeId),
 }
 
-/// An operation on each bit of values of one width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Operator {
     Not,
@@ -402,7 +379,6 @@ impl From<&str> for Instance {
 }
 
 impl fmt::Display for Instance {
-    /// The notation of the language: `adder[4]`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.arguments.is_empty() {
             return f.pad(&self.circuit);
@@ -420,7 +396,6 @@ impl SizeKind {
 }
 
 impl SizeOperator {
-    /// The result; `None` if it is too large or there is none.
     pub fn apply(self, left: i128, right: i128) -> Option<i128> {
         match self {
             Self::Add => left.checked_add(right),

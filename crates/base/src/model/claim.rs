@@ -7,16 +7,13 @@ use crate::source::Span;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Claim {
     pub circuit: Instance,
-    /// The title; empty if there is none.
     pub title: String,
     pub span: Span,
     pub file: String,
     pub line: usize,
     pub inputs: Vec<Column>,
     pub outputs: Vec<Column>,
-    /// The nets inside the circuit that properties read.
     pub inner: Vec<InnerNet>,
-    /// The environment that gives some of its inputs, if there is one.
     pub environment: Option<CircuitId>,
     pub properties: Vec<Property>,
     /// What the properties say, as a circuit: its inputs are the ports of the circuit, the nets inside it,
@@ -33,7 +30,6 @@ pub struct InnerNet {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Property {
     pub kind: PropertyKind,
-    /// The property as written, in one line.
     pub text: String,
     pub span: Span,
     pub line: usize,
@@ -45,12 +41,9 @@ pub struct Property {
     pub before: usize,
 }
 
-/// What a property says of its expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PropertyKind {
-    /// It is 1 in every step.
     Always,
-    /// It is 0 in every step.
     Never,
     /// Steps in which it is 0, and all that follows them, do not count.
     Assume,

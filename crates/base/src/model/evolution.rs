@@ -14,19 +14,16 @@ use super::{
 #[serde(deny_unknown_fields)]
 pub struct Evolution {
     pub name: String,
-    /// Columns of the bounding box, in voxels.
+    /// Columns and rows of the bounding box, in voxels.
     pub width: usize,
-    /// Rows of the bounding box, in voxels.
     pub height: usize,
     pub palette: Arc<Palette>,
     #[serde(default, skip_serializing_if = "Genome::is_cppn")]
     pub genome: Genome,
-    /// The robots with which a search of voxels begins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start: Option<StartBodies>,
     pub mutation: MutationWeights,
-    /// The stimuli of the long simulation, in which they change (paper, Methods); or the images that are told apart,
-    /// each with the number of its set as its pattern.
+    /// Of the long simulation (paper, Methods); or the images that are told apart, with their sets as patterns.
     pub variable: Schedule,
     #[serde(default, skip_serializing_if = "ImageOrder::is_apart")]
     pub shown: ImageOrder,
@@ -34,24 +31,19 @@ pub struct Evolution {
     pub fixed_steps: u32,
     /// The axes of the archive; a niche is one bin of each.
     pub descriptors: Vec<Axis>,
-    /// Offspring of archived parents in each generation.
     pub batch: usize,
-    /// Fresh random bodies added in each generation.
     pub newcomers: usize,
     pub generations: u32,
-    /// The seeds of the runs, one run for each.
     pub seeds: Vec<u64>,
     pub rules: Rules,
     pub objective: SearchObjective,
-    /// The behaviors that gates are searched for: a body is scored as the one that it comes nearest to. If there are
-    /// none, it is scored as what it does.
+    /// A body is scored as the one that it comes nearest to; if there are none, as what it does.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub behaviors: Vec<Behavior>,
     pub symmetry: Symmetry,
     pub niche: Niche,
     #[serde(default, skip_serializing_if = "PhysicsWorld::is_paper")]
     pub world: PhysicsWorld,
-    /// Other worlds in which bodies must work too.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sample: Option<SampledWorlds>,
 }
@@ -83,11 +75,9 @@ impl SampledWorlds {
     pub const USUAL: u32 = 4;
 }
 
-/// What bodies are made from, and what mutations change.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Genome {
-    /// A network that gives each place its material, as in the paper.
     #[default]
     Cppn,
     Voxels {
@@ -105,7 +95,6 @@ impl Genome {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ImageOrder {
-    /// Each of them from a fresh start.
     #[default]
     Apart,
     /// One after another, without a reset between them.
@@ -120,7 +109,6 @@ impl ImageOrder {
     }
 }
 
-/// The bodies of a library, with which a search begins.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StartBodies {
@@ -143,7 +131,6 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// The number of bins that bodies with that many inputs can be in.
     pub fn bins(&self, inputs: usize) -> usize {
         match *self {
             Self::Count { bins, .. } => bins,
@@ -168,7 +155,6 @@ pub enum Count {
 #[serde(deny_unknown_fields)]
 pub struct MutationWeights {
     pub add_node: f64,
-    /// Remove a node and bridge it.
     pub remove_node: f64,
     pub add_link: f64,
     pub remove_link: f64,
@@ -177,7 +163,6 @@ pub struct MutationWeights {
 }
 
 impl Default for MutationWeights {
-    /// Equal weights, as in the paper.
     fn default() -> Self {
         Self {
             add_node: 1.0,
@@ -200,13 +185,11 @@ pub enum Symmetry {
     Npn,
 }
 
-/// The elites that a niche keeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Niche {
     /// One elite, replaced by a body that is better in both fitnesses.
     #[default]
     Dominance,
-    /// A Pareto set of at most this size.
     Pareto(usize),
 }

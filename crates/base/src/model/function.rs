@@ -33,8 +33,7 @@ const NAMES: [&str; 16] = [
     "one",
 ];
 
-/// The functions of three inputs that have a usual name, with their bits. Those of no other are `f3_` and their bits in
-/// hexadecimal.
+/// The functions of three inputs that have a usual name; the others are `f3_` and their bits in hexadecimal.
 const THREE: [(&str, u8); 19] = [
     ("zero3", 0x00),
     ("one3", 0xff),
@@ -59,7 +58,6 @@ const THREE: [(&str, u8); 19] = [
     ("gamble", 0x7e),
 ];
 
-/// The names of the other functions of three inputs.
 const HEXADECIMAL: &[[u8; 5]; 256] = &{
     const DIGITS: &[u8; 16] = b"0123456789abcdef";
     let mut names = [*b"f3_00"; 256];
@@ -77,7 +75,6 @@ impl Function {
 
     pub const ZERO: Self = Self::new(0b0000);
     pub const NOR: Self = Self::new(0b0001);
-    /// `not a`
     pub const NOT: Self = Self::new(0b0011);
     pub const NOT_B: Self = Self::new(0b0101);
     pub const XOR: Self = Self::new(0b0110);
@@ -93,13 +90,11 @@ impl Function {
     pub const MUX: Self = Self::three(0xca);
     pub const XOR3: Self = Self::three(0x96);
 
-    /// The function of two inputs whose output at (a, b) is bit `2a + b` of `bits`.
     pub const fn new(bits: u8) -> Self {
         assert!(bits < 16, "a two-input function has four outputs");
         Self { inputs: 2, bits }
     }
 
-    /// The function of three inputs whose output at (a, b, c) is bit `4a + 2b + c` of `bits`.
     pub const fn three(bits: u8) -> Self {
         Self { inputs: 3, bits }
     }
@@ -116,7 +111,6 @@ impl Function {
         Self::all_of(2)
     }
 
-    /// All of two or three inputs, in order of their bits: 16 or 256.
     pub fn all_of(inputs: usize) -> impl Iterator<Item = Self> {
         let last = Self::last(inputs);
         (0..=last).map(move |bits| Self::of(inputs, bits))
@@ -127,13 +121,11 @@ impl Function {
         Self::all().chain(THREE.iter().map(|&(_, bits)| Self::three(bits)))
     }
 
-    /// The bits of the constant 1.
     fn last(inputs: usize) -> u8 {
         assert!(matches!(inputs, 2 | 3), "a function has two or three inputs");
         if inputs == 2 { 0b1111 } else { u8::MAX }
     }
 
-    /// The number of inputs, two or three, whether they matter or not.
     pub fn inputs(self) -> usize {
         usize::from(self.inputs)
     }
@@ -142,7 +134,6 @@ impl Function {
         self.bits
     }
 
-    /// The output of a function of two inputs at (a, b).
     pub fn output(self, a: bool, b: bool) -> bool {
         assert_eq!(self.inputs, 2, "the function has two inputs");
         self.row(usize::from(a) * 2 + usize::from(b))
@@ -166,19 +157,16 @@ impl Function {
         row >> (self.inputs() - 1 - input) & 1 == 1
     }
 
-    /// The output under a pattern, of which stimulus 1 is `a`.
     pub fn under(self, pattern: Pattern) -> bool {
         self.row(pattern.number(self.inputs()))
     }
 
-    /// Whether input `input` (0 is `a`) can change the output.
     pub fn depends_on(self, input: usize) -> bool {
         let (zero, place) = self.zero_rows(input);
         (self.bits >> place ^ self.bits) & zero != 0
     }
 
-    /// The rows of the truth table in which an input is 0, as bits, and how far before the others they are. The
-    /// function depends on no input that it does not have.
+    /// The rows of the truth table in which an input is 0, as bits, and how far before the others they are.
     fn zero_rows(self, input: usize) -> (u8, usize) {
         const ZERO: [u8; 3] = [0x0f, 0x33, 0x55];
         match self.inputs().checked_sub(input + 1) {
@@ -187,7 +175,6 @@ impl Function {
         }
     }
 
-    /// The number of inputs that can change the output.
     pub fn arity(self) -> usize {
         (0..self.inputs()).filter(|&input| self.depends_on(input)).count()
     }
@@ -215,7 +202,6 @@ impl Function {
         Self { bits: !self.bits & Self::last(self.inputs()), ..self }
     }
 
-    /// The function with input `input` (0 is `a`) inverted.
     pub fn with_input_inverted(self, input: usize) -> Self {
         let (zero, place) = self.zero_rows(input);
         Self { bits: (self.bits & zero) << place | self.bits >> place & zero, ..self }
@@ -227,8 +213,7 @@ impl Function {
         [Self::new(self.bits & 0b1111), Self::new(self.bits >> 4)]
     }
 
-    /// The functions that follow from this one by exchanging inputs, with itself, in order of their bits. One robot
-    /// computes them all.
+    /// The functions that follow from this one by exchanging inputs, with itself, in order of their bits.
     pub fn arrangements(self) -> Vec<Self> {
         let mut found: Vec<Self> = orders(self.inputs()).iter().map(|order| self.permuted(order)).collect();
         found.sort_unstable();
@@ -243,8 +228,7 @@ impl Function {
         *found.iter().find(is_named).unwrap_or(&found[0])
     }
 
-    /// The functions that follow from this one by inverting and exchanging inputs and by inverting the output, with
-    /// itself, in order of their bits. They are its class.
+    /// The functions that inverting and exchanging inputs and inverting the output give, in order of their bits.
     pub fn class(self) -> Vec<Self> {
         let inverted = |phase: usize| {
             let inputs = (0..self.inputs()).filter(|input| phase >> input & 1 == 1);
@@ -274,7 +258,6 @@ impl Function {
         }
     }
 
-    /// The function with this name, in upper or lower case.
     pub fn parse(name: &str) -> Option<Self> {
         let name = name.to_ascii_lowercase();
         let is_named = |function: &Self| {
@@ -284,7 +267,6 @@ impl Function {
     }
 }
 
-/// The orders of two or three inputs, the identity first.
 fn orders(inputs: usize) -> &'static [&'static [usize]] {
     match inputs {
         2 => &[&[0, 1], &[1, 0]],

@@ -9,8 +9,7 @@ pub struct NodeId(pub u32);
 /// A network from the position of a voxel to a score for each material code (paper, Methods; docs/physics.md 11).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Genotype {
-    /// The nodes: the inputs, an output for each code, then the hidden nodes, in order of their numbers. Of equal
-    /// scores, the first output wins.
+    /// The inputs, an output for each code, then the hidden nodes, by number. Of equal scores, the first output wins.
     pub nodes: Vec<(NodeId, NodeKind)>,
     /// The links in order of insertion, which is the order of summation.
     pub links: Vec<Link>,
@@ -21,12 +20,10 @@ pub struct Genotype {
 pub enum NodeKind {
     /// An input: x, y, z, distance or bias, in this order.
     Input(u8),
-    /// The score of a material code, with its activation.
     Output(u8, Activation),
     Hidden(Activation),
 }
 
-/// A link between two nodes: it adds the output of one, times a weight, to the input of the other.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Link {
     pub source: NodeId,
@@ -38,19 +35,12 @@ pub struct Link {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Activation {
-    /// sin u
     Sine,
-    /// |u|
     Abs,
-    /// -|u|
     NegAbs,
-    /// u²
     Square,
-    /// -u²
     NegSquare,
-    /// sqrt |u|
     SqrtAbs,
-    /// -sqrt |u|
     NegSqrtAbs,
     /// 2 / (1 + e^-u) - 1, the initial activation of outputs
     Sigmoid,

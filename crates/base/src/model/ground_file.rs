@@ -7,18 +7,15 @@ use serde::Deserialize;
 use super::GroundProfile;
 use super::wording::GroundFileError;
 
-/// The code of fixed voxels.
 const FIXED: f64 = 5.0;
 
-/// A file. It has more, which does not matter here.
 #[derive(Deserialize)]
 struct WorldFile {
     grid_width: usize,
     objects: BTreeMap<String, FileObject>,
 }
 
-/// An object: the cells of its voxels, row by row from the bottom of the world, and their codes. Files have whole
-/// numbers with and without a decimal point.
+/// The cells of its voxels, row by row from the bottom of the world, and their codes, perhaps with a decimal point.
 #[derive(Deserialize)]
 struct FileObject {
     indices: Vec<f64>,

@@ -9,7 +9,6 @@ use super::ImageSize;
 use super::wording::{image_pixels, image_size, pixel_range, ragged_image};
 
 /// The values of a stimulus over a body, from 0 for absent to 1 for present: rows of pixels, row 0 on top.
-///
 /// Images are equal when their values are, to the bit.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(try_from = "Vec<Vec<f64>>", into = "Vec<Vec<f64>>")]
@@ -19,7 +18,6 @@ pub struct Image {
 }
 
 impl Image {
-    /// An image of that size, row by row from the top.
     pub fn new(size: ImageSize, pixels: Vec<f64>) -> Result<Self, String> {
         let ImageSize { rows, columns } = size;
         if !size.is_valid() {
@@ -38,7 +36,6 @@ impl Image {
         self.size
     }
 
-    /// All values in reading order.
     pub fn pixels(&self) -> &[f64] {
         &self.pixels
     }
@@ -68,7 +65,6 @@ impl Image {
         sum / area as f64
     }
 
-    /// The size and the bits of the values, which have a total order.
     fn key(&self) -> (ImageSize, impl Iterator<Item = u64>) {
         (self.size, self.pixels.iter().map(|pixel| pixel.to_bits()))
     }

@@ -3,7 +3,6 @@
 use super::wording::ImageFileError;
 use super::{Image, ImageSize};
 
-/// An image, and what its file says that it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabeledImage {
     pub label: Option<String>,
@@ -12,20 +11,16 @@ pub struct LabeledImage {
 
 #[derive(Clone, Copy, Debug)]
 pub struct ImageFile<'a> {
-    /// Its name, whose ending is the format.
     pub name: &'a str,
     pub bytes: &'a [u8],
-    /// The bytes of a file of labels beside it, if there is one.
     pub labels: Option<&'a [u8]>,
     pub size: ImageSize,
     /// The number of the file that stands for 1; without it, the greatest that its format has.
     pub white: Option<f64>,
 }
 
-/// The first numbers of MNIST's files of images and of labels.
 const IDX_IMAGES: [u8; 4] = [0, 0, 8, 3];
 const IDX_LABELS: [u8; 4] = [0, 0, 8, 1];
-/// The bytes before the pixels of a file of images, and before its labels.
 const IDX_HEADERS: [usize; 2] = [16, 8];
 
 impl ImageFile<'_> {
@@ -46,7 +41,6 @@ impl ImageFile<'_> {
         if images.is_empty() { Err(ImageFileError::Empty) } else { Ok(images) }
     }
 
-    /// An image of numbers, of which some stand for 1.
     fn image(&self, numbers: &[f64], white: f64, line: Option<usize>) -> Result<Image, ImageFileError> {
         let bad = numbers.iter().find(|number| !(0.0..=white).contains(*number));
         if let Some(bad) = bad {
@@ -56,8 +50,7 @@ impl ImageFile<'_> {
         Image::new(self.size, pixels).map_err(ImageFileError::Image)
     }
 
-    /// A line for each image: its pixels as numbers, or all of them as the bits of one number, then its label. The
-    /// first line may name the columns. Text after `#` is a comment.
+    /// A line for each image: pixels as numbers, or as the bits of one, then a label. The first line may name columns.
     fn csv(&self) -> Result<Vec<LabeledImage>, ImageFileError> {
         let text = std::str::from_utf8(self.bytes).map_err(|_| ImageFileError::NotText)?;
         let lines = (1..).zip(text.lines()).map(|(line, text)| (line, text.split('#').next().unwrap_or("").trim()));
@@ -68,7 +61,6 @@ impl ImageFile<'_> {
         lines.map(|(line, text)| self.csv_row(line, cells(text), labels)).collect()
     }
 
-    /// The image of a line; `labels` is the column of labels, if it has a name.
     fn csv_row(
         &self,
         line: usize,
@@ -172,12 +164,10 @@ impl ImageFile<'_> {
     }
 }
 
-/// The cells of a line, without blanks and quotes around them.
 fn cells(line: &str) -> Vec<&str> {
     line.split(',').map(|cell| cell.trim().trim_matches('"')).collect()
 }
 
-/// The bits of a hexadecimal or binary number, the first one first.
 fn bits(number: &str) -> Option<Vec<f64>> {
     let (digits, radix, each) = match number.strip_prefix("0x") {
         Some(digits) => (digits, 16, 4),
@@ -191,10 +181,8 @@ fn bits(number: &str) -> Option<Vec<f64>> {
     Some(bits)
 }
 
-/// The words of a graymap, without its comments.
 struct Words<'a> {
     bytes: &'a [u8],
-    /// The end of the last word.
     at: usize,
 }
 

@@ -11,7 +11,6 @@ use super::wording::ImageFileError;
 const WEIGHTS: [u32; 3] = [299, 587, 114];
 
 /// The gray values of a picture of that size, row by row from the top, and the greatest value that its format has.
-/// Palettes and fewer than eight bits are expanded to eight bits. Transparent pixels are black.
 pub(super) fn gray(bytes: &[u8], size: ImageSize) -> Result<(Vec<f64>, f64), ImageFileError> {
     let damaged = |what| ImageFileError::Damaged { format: "PNG", what };
     let mut decoder = Decoder::new(Cursor::new(bytes));

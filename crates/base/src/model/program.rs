@@ -17,16 +17,12 @@ pub struct Program {
     /// The sizes of those stimuli that are images, by their numbers.
     pub image_sizes: BTreeMap<usize, ImageSize>,
     pub images: Vec<NamedImages>,
-    /// The materials, in the order of their numbers in bodies.
     pub materials: Vec<Material>,
-    /// Declared worlds, those of the prelude first.
     pub worlds: Vec<NamedWorld>,
     pub schedules: Vec<NamedSchedule>,
-    /// The evolution runs that are declared, those of the prelude included.
     pub evolutions: Vec<Evolution>,
     /// The names of the evolution runs of the file itself, not of files it uses.
     pub own_evolutions: Vec<String>,
-    /// Declared circuits; a [`CircuitId`](crate::model::CircuitId) is an index.
     pub circuits: Vec<Circuit>,
     /// The circuit `select` of the prelude: its second operand selects a bit of its first.
     pub selector: Option<CircuitId>,
@@ -39,9 +35,7 @@ pub struct Program {
     pub swarms: Vec<Swarm>,
     /// The simulations of the file itself, not of files it uses.
     pub simulations: Vec<Simulation>,
-    /// The tests; of the file itself, not of those it uses.
     pub tests: Vec<CircuitTest>,
-    /// The claims of the file itself, not of those it uses.
     pub claims: Vec<Claim>,
 }
 
@@ -59,8 +53,7 @@ impl NamedSchedule {
     /// The most sets of images: as many as two stimuli have patterns.
     pub const MOST_SETS: usize = Pattern::PAIRS.len();
 
-    /// Adds the images of a set, each for so many env steps. Their pattern is the number of the set, the least
-    /// significant bit first.
+    /// Their pattern is the number of the set, the least significant bit first.
     pub fn show(&mut self, set: &NamedImages, steps: u32) {
         let number = self.sets.iter().position(|name| *name == set.name).unwrap_or_else(|| {
             self.sets.push(set.name.clone());
@@ -80,7 +73,6 @@ pub struct NamedImages {
     pub images: Vec<Arc<Image>>,
 }
 
-/// A file with a name, which memories begin with.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedFile {
     pub name: String,
@@ -89,13 +81,11 @@ pub struct NamedFile {
     pub span: Span,
 }
 
-/// A declared library: the source of its robots, and the behaviors it is restricted to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LibrarySource {
     pub name: String,
     pub span: Span,
     pub from: Origin,
-    /// The behaviors it is restricted to; `None` is all.
     pub behaviors: Option<Vec<Behavior>>,
     pub without: Vec<(String, Span)>,
 }
@@ -103,29 +93,23 @@ pub struct LibrarySource {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Origin {
     Shipped,
-    /// Those robots, and the built-in ones of three stimuli.
     Three,
-    /// The archive of the evolution run of that name.
     Evolution(String),
     /// Robot files in a folder; the path starts from the same place as that of the source file which names it.
     Folder(String),
 }
 
-/// A declared swarm: a circuit made of a library's robots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Swarm {
     pub name: String,
     pub span: Span,
     pub circuit: Instance,
-    /// The name of the library in [`Program::libraries`].
     pub library: String,
-    /// The time for which each row of a test is held.
     pub hold: Hold,
     /// The number of cycles over which a robot's output is measured; the paper's is 1.
     pub window: u32,
     pub registers: RegisterStyle,
     pub waves: WaveTimes,
-    /// The world in which it runs, unless a test or a simulation names another.
     pub world: NamedWorld,
 }
 
@@ -154,11 +138,9 @@ pub enum Hold {
     /// Until every robot has settled, row by row.
     #[default]
     Auto,
-    /// That many cycles for every row.
     Cycles(u32),
 }
 
-/// A swarm under a schedule of its inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulation {
     /// The swarm's name in [`Program::swarms`], or the name of a circuit without a swarm.
@@ -169,24 +151,20 @@ pub struct Simulation {
     pub line: usize,
     pub inputs: Vec<Column>,
     pub spells: Vec<InputSpell>,
-    /// The world, if it is not the swarm's.
     pub world: Option<NamedWorld>,
 }
 
-/// Inputs held for a while.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InputSpell {
     /// The input bits in order of the ports, the most significant bit of a port first.
     pub inputs: Vec<bool>,
     /// The notation of the values of the ports; empty if they come from a schedule of stimuli.
     pub bases: Vec<Base>,
-    /// The duration in actuation cycles.
     pub cycles: u32,
     pub line: usize,
 }
 
 impl Program {
-    /// The world of swarms that name none.
     pub fn default_world(&self) -> NamedWorld {
         let declared = self.worlds.iter().find(|named| named.name == NamedWorld::DEFAULT);
         declared.cloned().unwrap_or_default()

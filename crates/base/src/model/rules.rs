@@ -25,7 +25,6 @@ pub enum Matter {
 }
 
 impl Matter {
-    /// Each matter with its word in the language, in the order of docs/physics.md 11.
     pub const WORDS: [(&str, Self); 8] = [
         ("sensors", Self::Sensors),
         ("targets", Self::Targets),
@@ -38,8 +37,7 @@ impl Matter {
     ];
 }
 
-/// The matters in which a run follows the authors' code; in all others it follows the paper's text, as by default in
-/// all. Written as `paper`, `code`, or a list of matters.
+/// The matters in which a run follows the authors' code, by default in none; in all others the paper's text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "Written", into = "Written")]
 pub struct Rules([bool; Matter::WORDS.len()]);
@@ -64,7 +62,6 @@ impl From<Matter> for Rules {
     }
 }
 
-/// As in files and messages.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged)]
 enum Written {

@@ -23,7 +23,6 @@ impl Spell {
         Self { pattern, image: None, steps }
     }
 
-    /// The value of a stimulus that is present or absent everywhere.
     pub fn value(&self, stimulus: usize) -> f64 {
         if self.pattern.has(stimulus) { 1.0 } else { 0.0 }
     }
@@ -51,12 +50,10 @@ impl Schedule {
         Self { spells: vec![Spell::of(pattern, steps)] }
     }
 
-    /// The length of all spells together, in env steps.
     pub fn steps(&self) -> u32 {
         self.spells.iter().map(|spell| spell.steps).sum()
     }
 
-    /// The pattern of each env step, first to last.
     pub fn patterns(&self) -> impl Iterator<Item = Pattern> + '_ {
         self.spells.iter().flat_map(|spell| std::iter::repeat_n(spell.pattern, spell.steps as usize))
     }

@@ -17,7 +17,6 @@ impl Pattern {
 
     pub const MAX_STIMULI: usize = 32;
 
-    /// The pattern in which stimulus `i` is present if `present[i]` is true.
     pub fn new(present: &[bool]) -> Self {
         Self::of(present.iter().copied())
     }
@@ -49,7 +48,6 @@ impl Pattern {
         (0..stimuli).fold(0, |number, i| number << 1 | usize::from(self.has(i)))
     }
 
-    /// The pattern as digits, stimulus 1 first, `stimuli` of them.
     pub fn digits(self, stimuli: usize) -> String {
         (0..stimuli).map(|i| if self.has(i) { '1' } else { '0' }).collect()
     }
@@ -68,14 +66,12 @@ impl TryFrom<String> for Pattern {
 }
 
 impl From<Pattern> for String {
-    /// Digits up to the last present stimulus, at least two.
     fn from(pattern: Pattern) -> Self {
         pattern.digits((32 - pattern.0.leading_zeros()).max(2) as usize)
     }
 }
 
 impl fmt::Display for Pattern {
-    /// The two-stimulus form, `01` for stimulus 2 alone.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.digits(2))
     }

@@ -2,18 +2,15 @@
 
 use crate::source::Span;
 
-/// A truth table as written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     /// In the order of the source. No two patterns match the same inputs.
     pub rows: Vec<TableRow>,
-    /// The output for the patterns without a row.
     pub otherwise: Option<TableOutput>,
     pub span: Span,
 }
 
 impl Table {
-    /// The output of each row, and then the one of the other patterns.
     pub fn outputs(&self) -> impl Iterator<Item = &TableOutput> {
         self.rows.iter().map(|row| &row.output).chain(&self.otherwise)
     }
@@ -30,7 +27,6 @@ pub struct TableRow {
 pub enum TablePattern {
     /// Most significant bit first; `None` matches both values.
     Bits(Vec<Option<bool>>),
-    /// All inputs together, as a number.
     Number(u128),
 }
 
@@ -44,9 +40,7 @@ pub struct TableOutput {
 pub enum OutputValue {
     /// Most significant bit first; the compiler chooses a bit that is `None`.
     Bits(Vec<Option<bool>>),
-    /// A number as wide as the other outputs.
     Number(u128),
-    /// This one of the expressions of the table.
     Expression(usize),
 }
 
@@ -68,7 +62,6 @@ impl TablePattern {
 }
 
 impl TableRow {
-    /// The bits of the pattern, the most significant first; none of a number.
     pub fn bits(&self) -> &[Option<bool>] {
         match &self.pattern {
             TablePattern::Bits(bits) => bits,

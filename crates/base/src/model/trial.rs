@@ -7,7 +7,6 @@ use super::{Body, FaultKind, GroundProfile, Schedule, SettingError, WorldFactors
 /// The environment of a trial: the strip of ground that a robot walks on (docs/physics.md 1), and its physics.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Setting {
-    /// Ground voxels in a row.
     pub world_width: usize,
     /// The ground column of a body's left column; `None` puts the body in the middle: half the world less half the
     /// body, rounded down.
@@ -16,8 +15,7 @@ pub struct Setting {
     pub shift: f64,
     /// The physics as factors of the paper's.
     pub factors: WorldFactors,
-    /// The ground, as columns that repeat from its left end. A body starts above the highest voxel of the columns below
-    /// it.
+    /// Columns that repeat from the left end. A body starts above the highest voxel of the columns below it.
     pub ground: GroundProfile,
 }
 

@@ -4,10 +4,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A request to end work early: a search of mapping, a translation, a check. Clones share their state.
-///
-/// A cancelled search soon returns the best network so far. It consists of cells of the library and has the function of
-/// its source, but it may have more cells than after a complete search, depending on the moment. A check that was cut
-/// short has an error that says so. A flag that is never raised does not affect a result.
+/// A cancelled search soon returns the best network so far: it has the function of its source, but perhaps more cells.
+/// A flag that is never raised does not affect a result.
 #[derive(Clone, Debug, Default)]
 pub struct CancelFlag(Arc<AtomicBool>);
 

@@ -13,22 +13,18 @@ impl LineStarts {
         Self(std::iter::once(0).chain((0..bytes.len()).filter(ends).map(|at| at as u32 + 1)).collect())
     }
 
-    /// The line of a byte, from 0.
     pub fn line(&self, offset: usize) -> usize {
         self.0.partition_point(|&start| start as usize <= offset) - 1
     }
 
-    /// The first byte of a line, counted from 0; `None` if there are fewer lines.
     pub fn start(&self, line: usize) -> Option<usize> {
         self.0.get(line).map(|&start| start as usize)
     }
 }
 
-/// A source file: its name as the user wrote it, and its text.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
     pub id: FileId,
-    /// The path as given, for messages.
     pub name: String,
     pub text: String,
     lines: LineStarts,
@@ -63,7 +59,6 @@ pub struct Sources {
 }
 
 impl Sources {
-    /// A byte-order mark at its start, which some editors write, is no part of it.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
         let id = FileId(u32::try_from(self.files.len()).expect("fewer than 2^32 source files"));
         let mut text = text.into();
@@ -84,7 +79,6 @@ impl Sources {
         self.files.iter()
     }
 }
-/// A text without the byte-order mark that some editors write at the start of a file.
 pub fn without_mark(text: &str) -> &str {
     text.strip_prefix('\u{feff}').unwrap_or(text)
 }

@@ -4,10 +4,8 @@ use std::fmt;
 
 use super::verilog::{SecondReading, VerilogModules};
 
-/// A circuit of another tool's file that a program uses, and what its proof begins with.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ForeignCircuit {
-    /// The file, or several of one design.
     pub file: String,
     pub circuit: String,
     pub origin: ProofOrigin,
@@ -49,7 +47,6 @@ impl fmt::Display for ProofOrigin {
     }
 }
 
-/// A number with commas, such as 4,096.
 pub fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let groups = digits.as_bytes().rchunks(3).rev().map(|group| String::from_utf8_lossy(group));

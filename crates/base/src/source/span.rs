@@ -9,7 +9,6 @@ pub struct FileId(pub u32);
 pub struct Span {
     pub file: FileId,
     pub start: u32,
-    /// The end: one past the last byte.
     pub end: u32,
 }
 
@@ -19,7 +18,6 @@ impl Span {
         Self { file, start: narrow(start), end: narrow(end) }
     }
 
-    /// The smallest span that covers `self` and `other`.
     pub fn to(self, other: Self) -> Self {
         assert_eq!(self.file, other.file, "a span covers one file only");
         Self { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }

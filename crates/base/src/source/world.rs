@@ -20,7 +20,6 @@ pub trait SourceWorld {
         self.read(path).map(String::into_bytes)
     }
 
-    /// The modules of Verilog files, as one design.
     fn read_verilog(&self, _files: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
         Err(VerilogError::NoReader)
     }
@@ -30,7 +29,6 @@ pub trait SourceWorld {
         CancelFlag::default()
     }
 
-    /// The names of the entries of a folder, in order.
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError>;
 
     /// What is at `path`; `None` if there is nothing that this world has.
@@ -47,10 +45,8 @@ pub trait SourceWorld {
     }
 }
 
-/// A world that several sessions share.
 pub type SharedWorld = Arc<dyn SourceWorld + Send + Sync>;
 
-/// Worlds behind a pointer are worlds.
 macro_rules! forward {
     ($pointer:ident) => {
         impl<W: SourceWorld + ?Sized> SourceWorld for $pointer<W> {
@@ -95,7 +91,6 @@ pub struct MemoryWorld {
 }
 
 impl MemoryWorld {
-    /// Adds a file at `path`, replacing any other.
     pub fn insert(&mut self, path: impl Into<String>, text: impl Into<String>) {
         self.files.insert(path.into(), text.into());
     }
@@ -123,7 +118,6 @@ impl SourceWorld for MemoryWorld {
 /// Files in memory over another world, such as an editor's buffers over the disk.
 #[derive(Clone, Debug, Default)]
 pub struct OverlayWorld<W> {
-    /// The texts that hide files of `under`, by their identities there.
     over: MemoryWorld,
     under: W,
 }
@@ -133,12 +127,10 @@ impl<W: SourceWorld> OverlayWorld<W> {
         Self { over: MemoryWorld::default(), under }
     }
 
-    /// Puts a text over the file at `path`, which need not exist below.
     pub fn insert(&mut self, path: &str, text: impl Into<String>) {
         self.over.insert(self.under.identity(path), text);
     }
 
-    /// Takes the text over `path` away: the file below counts again.
     pub fn remove(&mut self, path: &str) {
         self.over.remove(&self.under.identity(path));
         self.over.remove(path);

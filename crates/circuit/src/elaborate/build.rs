@@ -30,7 +30,6 @@ pub(super) struct Builder<'a> {
     pub(super) inspected: Vec<bool>,
     pub(super) passes: Passes,
     pub(super) budget: WorkBudget,
-    /// Why nothing more is built, once the budget is used up.
     pub(super) over: Option<OverBudget>,
 }
 
@@ -57,7 +56,6 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Counts what is about to be made. Once it is too much, nothing more is built.
     pub(super) fn take(&mut self, limit: Limit, amount: u64, place: Span) -> Option<()> {
         if self.over.is_some() {
             return None;
@@ -91,8 +89,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Moves the errors after the first `known` ones that are in another file to `place`, where the circuit is used:
-    /// the user may not know the file that declares it.
+    /// Moves the errors after the first `known` that are in another file to `place`, where the circuit is used.
     pub(super) fn show_at(&mut self, place: Span, known: usize) {
         for fault in &mut self.diagnostics[known..] {
             if fault.labels.first().is_some_and(|label| label.span.file != place.file) {
@@ -112,7 +109,6 @@ impl<'a> Builder<'a> {
         self.with_arguments(circuit, &instance.arguments, self.circuit(circuit).span)
     }
 
-    /// The module of a circuit with numbers for its first parameters; it is named at `place`.
     pub(super) fn with_arguments(&mut self, circuit: CircuitId, arguments: &[u64], place: Span) -> Option<ModuleId> {
         let mut given: Vec<_> = arguments.iter().map(|&value| Some(value.into())).collect();
         given.resize(self.circuit(circuit).parameters.len(), None);
@@ -200,7 +196,6 @@ pub(super) struct ModuleBuilder<'a, 'b> {
     pub(super) items: Vec<Item<'a>>,
     pub(super) constants: [Option<Bit>; 2],
     pub(super) unnamed: usize,
-    /// Whether all nets without a width wait for each other.
     pub(super) only_loops: bool,
     pub(super) failed: bool,
     pub(super) place: Span,
@@ -339,7 +334,6 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
 
     fn undriven(&mut self) {
         if self.failed {
-            // The error may be in the drivers.
             return;
         }
         for net in self.circuit.inputs..self.module.nets.len() {
@@ -371,7 +365,6 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
     }
 }
 
-/// The bits that are missing of a net, as the user would write the first run of them.
 fn undriven_bits(name: &str, missing: &[u32], width: u32) -> Option<String> {
     let (&first, rest) = missing.split_first()?;
     let run = rest.iter().zip(first + 1..).take_while(|(bit, next)| *bit == next).count() as u32;

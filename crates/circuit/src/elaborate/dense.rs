@@ -18,7 +18,6 @@ pub(super) enum Shape {
     Select(usize, usize, usize),
 }
 
-/// One output bit of a table with that many inputs, from its value in each row and for the other patterns.
 pub(super) fn outputs(table: &Table, inputs: usize, values: &[Option<bool>], otherwise: Option<bool>) -> Outputs {
     let mut outputs = vec![otherwise; 1 << inputs];
     for (row, output_bit) in table.rows.iter().zip(values) {
@@ -42,7 +41,7 @@ pub(super) fn shape(outputs: &[Option<bool>]) -> Vec<Shape> {
     parts.items
 }
 
-/// Adds the parts of a function. It is halved, so the recursion is no deeper than the number of inputs.
+/// Halves the function, so the recursion is no deeper than the number of inputs.
 fn part(parts: &mut Interned<Shape>, outputs: &[Option<bool>]) -> usize {
     if let Some(value) = constant(outputs) {
         return parts.number(Shape::Constant(value));
@@ -77,7 +76,6 @@ fn constant(outputs: &[Option<bool>]) -> Option<bool> {
     known.all(|&output| output == first).then_some(first)
 }
 
-/// A common completion of both halves, if there is one.
 fn agreed(low: &[Option<bool>], high: &[Option<bool>]) -> Option<Outputs> {
     let one = |(a, b): (&Option<bool>, &Option<bool>)| match (a, b) {
         (Some(a), Some(b)) if a != b => None,

@@ -27,7 +27,6 @@ const PART_STEPS: u64 = 12;
 
 type NetPart = (Option<SizeId>, Option<(SizeId, SizeId)>);
 
-/// The values of the parts of an expression, each of which is used once.
 struct Parts {
     first: u32,
     values: Vec<Vec<Bit>>,
@@ -165,8 +164,7 @@ impl ModuleBuilder<'_, '_> {
         self.module.starts.extend((0..width).map(|at| (first + at, bit(at))));
     }
 
-    /// The values of an expression, from its leaves to its root without recursion; `None` after an error. The whole is
-    /// expected to be so wide.
+    /// From the leaves to the root, without recursion; `None` after an error.
     fn values(
         &mut self,
         root: ExpressionId,
@@ -249,7 +247,7 @@ impl ModuleBuilder<'_, '_> {
         [false, true].into_iter().find(|&value| self.constants[usize::from(value)] == Some(bit))
     }
 
-    /// Adds a signal. If there is no room for it, it is any other: the module has failed.
+    /// Any other signal if there is no room: the module has failed.
     fn signal(&mut self, signal: ModuleSignal) -> Bit {
         if self.take(Limit::Nets, 1).is_none() {
             return 0;
@@ -323,8 +321,7 @@ impl ModuleBuilder<'_, '_> {
         }
     }
 
-    /// The word of an array, or the bit of another net, that a value selects: a tree of choices. A place that does not
-    /// exist shows 0.
+    /// A tree of choices; a place that does not exist shows 0.
     fn element(
         &mut self,
         slot: NetSlot,
@@ -396,7 +393,7 @@ impl ModuleBuilder<'_, '_> {
         Some((0..width).map(|bit| self.operation_bit(operator, values.iter().map(|value| value[bit]), span)).collect())
     }
 
-    /// One bit of an operation: of more than two operands, all but the last are combined without the final inversion.
+    /// All operands but the last are combined without the final inversion.
     fn operation_bit(&mut self, operator: Operator, mut operands: impl Iterator<Item = Bit>, span: Span) -> Bit {
         let first = operands.next().expect("an operation has operands");
         let (inner, last) = match operator {
@@ -433,7 +430,6 @@ impl ModuleBuilder<'_, '_> {
         Some(pairs.map(|(&then, &otherwise)| self.select(condition[0], then, otherwise, span)).collect())
     }
 
-    /// `then` if the condition is 1, else `otherwise`. A choice by a constant needs no gates.
     pub(super) fn select(&mut self, condition: Bit, then: Bit, otherwise: Bit, span: Span) -> Bit {
         if let Some(value) = self.constant_of(condition) {
             return if value { then } else { otherwise };

@@ -22,7 +22,6 @@ impl Builder<'_> {
     }
 }
 
-/// The steps that the values of a circuit's parameters and the widths of its ports take.
 pub(super) fn cost(circuit: &Circuit) -> u64 {
     let ports = &circuit.nets[..circuit.inputs + circuit.outputs];
     let defaults = circuit.parameters.iter().filter_map(|parameter| parameter.default);

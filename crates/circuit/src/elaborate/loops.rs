@@ -46,8 +46,7 @@ impl Builder<'_> {
         exact.iter().filter_map(|signals| warning(self.module(id), signals)).collect()
     }
 
-    /// Finds what the circuits inside a module pass from their inputs to their outputs, each once; nothing if that
-    /// takes too many steps.
+    /// Each module once; nothing if that takes too many steps.
     fn find_passes(&mut self, id: ModuleId) -> Option<()> {
         let inside: BTreeSet<ModuleId> = self.module(id).sites.iter().map(|site| site.module).collect();
         for site in inside {
@@ -70,8 +69,7 @@ impl Builder<'_> {
         taken.ok()
     }
 
-    /// The dependencies in a module; each circuit inside is a node after the signals, unless it is known what it
-    /// passes.
+    /// Each circuit inside is a node after the signals, unless it is known what it passes.
     fn graph(&self, module: &Module, exact: Option<&Passes>) -> DiGraph<(), ()> {
         let signals = module.signals.len();
         let mut graph = DiGraph::with_capacity(signals + module.sites.len(), 2 * signals);
@@ -107,8 +105,7 @@ impl Builder<'_> {
         graph
     }
 
-    /// For each output bit of a module, the input bits that reach it without passing a bit with a start value; nothing
-    /// if that takes too many steps.
+    /// For each output bit, the input bits that reach it without passing a start value; nothing after too many steps.
     fn passes_of(&mut self, id: ModuleId) -> Option<Vec<Vec<u32>>> {
         let graph = self.graph(self.module(id), Some(&self.passes));
         let mut seen = vec![0; self.module(id).signals.len()];

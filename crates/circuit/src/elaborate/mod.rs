@@ -39,8 +39,7 @@ pub fn elaborate(program: &Program, instance: &Instance) -> Result<Netlist, Vec<
     changed(program, instance, |_| {})
 }
 
-/// The part of a circuit's netlist that drives a net: its outputs are the bits of the net declared at `net`, in every
-/// iteration of the loops around it. The rest is there too, without a listener.
+/// Its outputs are the bits of the net declared at `net`, in every iteration; the rest is there, without a listener.
 pub fn elaborate_net(program: &Program, instance: &Instance, net: Span) -> Result<Netlist, Vec<Diagnostic>> {
     changed(program, instance, |module| module.show(net))
 }
@@ -50,7 +49,6 @@ pub fn elaborate_watched(program: &Program, instance: &Instance, nets: &[Span]) 
     changed(program, instance, |module| nets.iter().for_each(|&net| module.watch(net)))
 }
 
-/// The netlist of a circuit whose module is changed once it is built.
 fn changed(
     program: &Program,
     instance: &Instance,
@@ -128,8 +126,7 @@ impl<'a> Inspector<'a> {
         }
     }
 
-    /// The input and output ports of a circuit with numbers for its first parameters, if it can be built; it is named
-    /// at `place`.
+    /// The ports with these first parameters, if the circuit can be built; it is named at `place`.
     pub fn ports(&mut self, circuit: CircuitId, arguments: &[u64], place: Span) -> Option<(Vec<Column>, Vec<Column>)> {
         let known = self.0.diagnostics.len();
         let module = self.0.with_arguments(circuit, arguments, place);
@@ -139,8 +136,6 @@ impl<'a> Inspector<'a> {
         Some(self.0.columns(module))
     }
 
-    /// A net inside a circuit with numbers for its first parameters, and the place of its declaration, if one has that
-    /// name.
     pub fn net(&mut self, circuit: CircuitId, arguments: &[u64], place: Span, name: &str) -> Option<(Column, Span)> {
         let module = self.0.with_arguments(circuit, arguments, place)?;
         self.0.inner_net(module, name)
@@ -166,7 +161,6 @@ pub struct Inspection {
     pub diagnostics: Vec<Diagnostic>,
     pub widths: NetWidths,
     pub instances: Vec<Instance>,
-    /// Whether it ended early, so that a part of the result is missing.
     pub is_cancelled: bool,
 }
 
@@ -175,7 +169,6 @@ pub struct Inspection {
 pub struct NetWidths(Vec<(Span, u32)>);
 
 impl NetWidths {
-    /// The widths of a net, in order; none if its circuit was not built.
     pub fn of(&self, declared: Span) -> impl Iterator<Item = u32> + '_ {
         let start = self.0.partition_point(|(place, _)| *place < declared);
         self.0[start..].iter().take_while(move |(place, _)| *place == declared).map(|(_, width)| *width)

@@ -48,7 +48,6 @@ pub(super) enum ModuleSignal {
 
 pub(super) struct Site {
     pub(super) module: ModuleId,
-    /// Its input bits, as [`ModuleSignal::Input`] counts them.
     pub(super) inputs: Vec<Bit>,
     pub(super) name: String,
 }
@@ -56,7 +55,6 @@ pub(super) struct Site {
 pub(super) struct ModuleNet {
     pub(super) name: String,
     pub(super) span: Span,
-    /// Its bits; `None` until its width is known.
     pub(super) width: Option<u32>,
     pub(super) words: Option<u32>,
     /// The signal of its lowest bit, once its width is known.
@@ -81,7 +79,6 @@ pub(super) struct Module {
     /// The nets: input ports, output ports, others.
     pub(super) nets: Vec<ModuleNet>,
     pub(super) sites: Vec<Site>,
-    /// Values before the first cycle, in order of the bits.
     pub(super) starts: Vec<(Bit, bool)>,
     /// The output bits, over the ports in order, the lowest bit of a port first.
     pub(super) output_bits: Vec<Bit>,
@@ -126,7 +123,6 @@ pub(super) struct Sum {
     nets: u64,
     instances: u64,
     named: u64,
-    /// The bytes of all names, as they begin in this module.
     name_bytes: u64,
 }
 
@@ -134,7 +130,6 @@ pub(super) struct Sum {
 const BIT_BYTES: u64 = 9;
 
 impl Sum {
-    /// The sums of a module of a circuit with so long a name, from those of the modules inside it.
     pub(super) fn of(module: &Module, modules: &[Module], circuit_bytes: usize) -> Self {
         let mut sum = Self { nets: module.signals.len() as u64, instances: 1, ..Self::default() };
         sum.name_bytes = circuit_bytes as u64;
@@ -171,8 +166,7 @@ impl Sum {
     }
 }
 
-/// The ports of a memory, counted over the bits of the inputs and outputs of its environment; the highest bit of a port
-/// comes first.
+/// Counted over the bits of the inputs and outputs of the environment; the highest bit of a port comes first.
 #[derive(Clone, Debug)]
 pub struct MemoryPorts {
     pub memory: usize,
@@ -192,7 +186,6 @@ pub(super) struct Scope {
     pub(super) first_net: u32,
     pub(super) nets: u32,
     pub(super) variables: Vec<i128>,
-    /// The loop variables as a suffix of names.
     pub(super) turn: String,
 }
 
@@ -207,7 +200,6 @@ impl Scope {
 pub(super) struct Item<'a> {
     pub(super) frame: u32,
     pub(super) targets: &'a [Target],
-    /// Whether the targets are the parts of one value.
     pub(super) joined: bool,
     pub(super) value: ExpressionId,
 }

@@ -8,10 +8,8 @@ use crate::elaborate::wording;
 use nbc_base::budget::Limit;
 use nbc_base::model::{CircuitId, ExpressionId, ExpressionKind, FreeNumber, OutputValue, SizeId, SizeKind, Table};
 
-/// The widths that the parts of an expression need, as far as they have none of their own.
 pub(super) struct NeededWidths {
     first: u32,
-    /// Nothing if the expression has no such numbers.
     widths: Vec<Option<u32>>,
 }
 
@@ -32,7 +30,6 @@ fn is_free(kind: &ExpressionKind, tables: &[Table]) -> bool {
 }
 
 impl ModuleBuilder<'_, '_> {
-    /// The widths that the parts of an expression need if the whole is `expected` bits wide.
     pub(super) fn needed_widths(&mut self, root: ExpressionId, frame: u32, expected: Option<u32>) -> NeededWidths {
         let circuit = self.circuit;
         let first = circuit.first_leaf(root);
@@ -53,7 +50,6 @@ impl ModuleBuilder<'_, '_> {
         needed
     }
 
-    /// Notes what an expression of `own` bits needs of its parts.
     fn pass_on(
         &mut self,
         id: ExpressionId,
@@ -94,7 +90,6 @@ impl ModuleBuilder<'_, '_> {
         }
     }
 
-    /// The widths of the input ports of a call, as far as its operands and its value tell them.
     fn port_widths(
         &mut self,
         callee: CircuitId,

@@ -7,7 +7,6 @@ use crate::elaborate::wording;
 use nbc_base::model::{ExpressionId, ExpressionKind, NetSlot};
 
 impl ModuleBuilder<'_, '_> {
-    /// The number of words of an array or a memory.
     pub(super) fn words_of(&mut self, array: NetSlot, frame: u32) -> Option<u32> {
         match self.circuit.memories.iter().find(|memory| memory.net == array) {
             Some(memory) => self.width(memory.words, 0),
@@ -15,8 +14,7 @@ impl ModuleBuilder<'_, '_> {
         }
     }
 
-    /// Warns of a value that can select beyond the last of `count` words or bits of a net, and refuses a constant that
-    /// does.
+    /// Warns of a value that can select beyond the last of `count`, and refuses a constant that does.
     pub(super) fn look_outside(
         &mut self,
         net: &str,
@@ -41,14 +39,12 @@ impl ModuleBuilder<'_, '_> {
         self.fault(fault);
     }
 
-    /// The same for the operands of `select`.
     pub(super) fn look_selected(&mut self, operands: &[Option<ExpressionId>], values: &[Option<Vec<Bit>>]) {
         let ([Some(of), Some(index)], [Some(bits), Some(value)]) = (operands, values) else { return };
         let net = self.operand(*of, bits).net;
         self.look_outside(net.as_deref().unwrap_or("a"), (bits.len() as u32, false), *index, value);
     }
 
-    /// Whether a value is a net with an enumeration whose members are all inside.
     fn is_always_inside(&self, index: ExpressionId, count: u32) -> bool {
         let ExpressionKind::Net(slot) = self.circuit.expressions[index.0 as usize].kind else { return false };
         let members = self.circuit.nets[slot.0 as usize].members;

@@ -4,7 +4,6 @@ use crate::elaborate::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Size, SizeId, SizeKind};
 
-/// The value of a size, from its leaves to its root without recursion.
 pub(super) fn value(sizes: &[Size], root: SizeId, variables: &[i128]) -> Result<i128, Diagnostic> {
     let first = Size::first_part(sizes, root);
     if first == root {

@@ -6,7 +6,6 @@ use crate::elaborate::wording;
 use nbc_base::budget::Limit;
 
 impl Builder<'_> {
-    /// Whether a module or a circuit inside it has a start value.
     pub(super) fn has_memory(&self, top: ModuleId) -> bool {
         let mut seen = vec![false; self.modules.len()];
         let mut open = vec![top];
@@ -22,8 +21,7 @@ impl Builder<'_> {
         false
     }
 
-    /// The start value of the net that a bit of a module stands for, through nets and outputs of circuits inside;
-    /// `steps` counts these.
+    /// Through nets and outputs of circuits inside; `steps` counts these.
     fn start_of(&self, module: &Module, bit: Bit, steps: &mut u64) -> Option<bool> {
         let (mut module, mut at, mut nets) = (module, bit, 0);
         // A net that is driven by itself has an error of its own.
@@ -47,7 +45,6 @@ impl Builder<'_> {
 }
 
 impl ModuleBuilder<'_, '_> {
-    /// Reports nets with another start value than the memory that drives them: they cannot have both.
     pub(super) fn contradicting_starts(&mut self) {
         self.module.starts.sort_unstable();
         let mut items: Vec<u32> = Vec::new();

@@ -12,7 +12,6 @@ use nbc_base::source::Span;
 /// Tables with more input bits are built row by row, not decomposed.
 const MAX_DENSE_BITS: usize = 12;
 
-/// One bit of an output.
 #[derive(Clone, Copy)]
 enum OutputBit {
     /// A value, or a bit that the compiler chooses.
@@ -29,7 +28,6 @@ impl OutputBit {
     }
 }
 
-/// The outputs of a table that are expressions, and their values.
 #[derive(Clone, Copy)]
 pub(super) struct TableValues<'a> {
     pub(super) expressions: &'a [ExpressionId],
@@ -38,7 +36,6 @@ pub(super) struct TableValues<'a> {
 }
 
 impl ModuleBuilder<'_, '_> {
-    /// The outputs of a table for these input bits, the lowest first.
     pub(super) fn table(&mut self, table: &Table, inputs: &[Bit], values: TableValues) -> Option<Vec<Bit>> {
         let resolved;
         self.take(Limit::Steps, (table.rows.len() as u64 + 1).saturating_mul(inputs.len() as u64))?;
@@ -79,7 +76,6 @@ impl ModuleBuilder<'_, '_> {
         Some((0..width).map(|bit| self.table_bit(table, inputs, &column(bit))).collect())
     }
 
-    /// The bits of an output, the lowest first.
     fn output_bits(&mut self, output: &TableOutput, values: TableValues) -> Option<Vec<OutputBit>> {
         if let OutputValue::Number(value) = output.value {
             let width = match values.width {
@@ -101,7 +97,6 @@ impl ModuleBuilder<'_, '_> {
         })
     }
 
-    /// An output for a message about its width.
     fn output_text(&self, output: &TableOutput, bits: &[OutputBit], values: TableValues) -> OperandText {
         match output.value {
             OutputValue::Bits(_) | OutputValue::Number(_) => {
@@ -111,7 +106,6 @@ impl ModuleBuilder<'_, '_> {
         }
     }
 
-    /// One bit of the outputs: in each row, and for the other patterns if there is an `else`.
     fn table_bit(&mut self, table: &Table, inputs: &[Bit], column: &[OutputBit]) -> Bit {
         let (rows, otherwise) = column.split_at(table.rows.len());
         let otherwise = otherwise.first().copied().unwrap_or(OutputBit::Fixed(None));
@@ -158,7 +152,6 @@ impl ModuleBuilder<'_, '_> {
         self.join(Function::AND, literals, true, span)
     }
 
-    /// Combines all of them by one function, in a balanced tree; `empty` if there are none.
     fn join(&mut self, function: Function, mut bits: Vec<Bit>, empty: bool, span: Span) -> Bit {
         while bits.len() > 1 {
             let pair = |pair: &[Bit]| match *pair {
@@ -170,7 +163,6 @@ impl ModuleBuilder<'_, '_> {
         bits.first().copied().unwrap_or_else(|| self.constant(empty))
     }
 
-    /// The gates of a decomposed function; a part that occurs twice is built once.
     fn shape(&mut self, shape: &[Shape], inputs: &[Bit], span: Span) -> Bit {
         let mut built: Vec<Bit> = Vec::new();
         for part in shape {

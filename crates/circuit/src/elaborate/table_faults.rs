@@ -6,7 +6,6 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::{OutputValue, Table, TableOutput, TablePattern, TableRow};
 use nbc_base::source::Span;
 
-/// The same table over inputs of `width` bits, with the bits of every pattern.
 pub fn table_in_bits(table: &Table, width: usize) -> Result<Table, Diagnostic> {
     let mut table = table.clone();
     for row in &mut table.rows {
@@ -26,8 +25,7 @@ pub fn table_in_bits(table: &Table, width: usize) -> Result<Table, Diagnostic> {
     Ok(table)
 }
 
-/// What is wrong with a table whose patterns all have their bits: their widths, patterns with two rows or none. All
-/// pairs of rows are compared, so there must be few.
+/// Every pattern has all its bits. All pairs of rows are compared, so there must be few.
 pub fn table_fault(table: &Table) -> Option<Diagnostic> {
     if Limit::TableRows.permit(table.rows.len() as u64).is_err() {
         return Some(wording::too_many_rows(table.rows.len(), table.span));
@@ -42,7 +40,6 @@ pub fn table_fault(table: &Table) -> Option<Diagnostic> {
         .or_else(|| missing(table))
 }
 
-/// The width of an output that is not an expression, with its place.
 fn written(output: &TableOutput) -> Option<(usize, Span)> {
     match &output.value {
         OutputValue::Bits(bits) => Some((bits.len(), output.span)),
@@ -50,7 +47,6 @@ fn written(output: &TableOutput) -> Option<(usize, Span)> {
     }
 }
 
-/// The first width that differs from the one before it.
 fn uneven(widths: impl Iterator<Item = (usize, Span)>, what: &str) -> Option<Diagnostic> {
     let widths: Vec<_> = widths.collect();
     let pair = widths.windows(2).find(|pair| pair[0].0 != pair[1].0)?;
@@ -66,8 +62,7 @@ fn overlap(table: &Table) -> Option<Diagnostic> {
     })
 }
 
-/// A pattern that no row matches, if there is no `else`. The rows do not overlap, so counting tells whether such a
-/// pattern exists.
+/// The rows do not overlap, so counting tells whether there is a pattern without a row.
 fn missing(table: &Table) -> Option<Diagnostic> {
     if table.otherwise.is_some() {
         return None;
@@ -89,8 +84,7 @@ fn missing(table: &Table) -> Option<Diagnostic> {
     })
 }
 
-/// A row of zeros for the remaining patterns, and the end of the last row; `None` if the width of the outputs is not
-/// written in a row.
+/// A row of zeros, and the end of the last row; `None` if no row shows the width of the outputs.
 fn rest(table: &Table) -> Option<(u32, String)> {
     let last = table.rows.last()?.output.span.end;
     let bits = table.outputs().find_map(|output| match &output.value {

@@ -11,7 +11,6 @@ use nbc_base::model::{Block, NetSlot, Size, SizeId, SizeKind, Statement};
 use nbc_base::source::Span;
 
 impl<'a> ModuleBuilder<'a, '_> {
-    /// Unrolls loops: fills the list of statements to build.
     pub(super) fn unroll(&mut self, variables: Vec<i128>) {
         let body = &self.circuit.body;
         if let Some(root) = self.open_frame(None, body, variables, String::new()) {
@@ -19,7 +18,6 @@ impl<'a> ModuleBuilder<'a, '_> {
         }
     }
 
-    /// Opens a block in one turn of the loops around it, if there is room for it.
     fn open_frame(&mut self, parent: Option<u32>, block: &Block, variables: Vec<i128>, turn: String) -> Option<u32> {
         let first_net = self.module.nets.len() as u32;
         let nets = &self.circuit.nets[block.nets.start as usize..block.nets.end as usize];
@@ -81,7 +79,6 @@ impl<'a> ModuleBuilder<'a, '_> {
         }
     }
 
-    /// Unrolls a block inside another, in the same turn of the loops.
     fn unroll_inside(&mut self, frame: u32, block: &'a Block) {
         let Scope { variables, turn, .. } = &self.frames[frame as usize];
         let (variables, turn) = (variables.clone(), turn.clone());
@@ -125,7 +122,6 @@ impl<'a> ModuleBuilder<'a, '_> {
         }
     }
 
-    /// The net that a slot is in a frame.
     pub(super) fn net(&self, slot: NetSlot, frame: u32) -> usize {
         let mut frame = &self.frames[frame as usize];
         loop {
@@ -137,7 +133,6 @@ impl<'a> ModuleBuilder<'a, '_> {
         }
     }
 
-    /// The value of a size in a frame; reports an error.
     pub(super) fn size(&mut self, size: SizeId, frame: u32) -> Option<i128> {
         let first = Size::first_part(&self.circuit.sizes, size);
         self.take(Limit::Steps, u64::from(size.0 - first.0))?;
@@ -145,7 +140,6 @@ impl<'a> ModuleBuilder<'a, '_> {
         value.map_err(|fault| self.fault(fault)).ok()
     }
 
-    /// The value of a size that is a constant of the circuit, at `span`.
     pub(super) fn unsigned(&mut self, size: SizeId, frame: u32, span: Span) -> Option<u128> {
         let value = self.size(size, frame)?;
         let unsigned = u128::try_from(value).ok();
@@ -155,7 +149,6 @@ impl<'a> ModuleBuilder<'a, '_> {
         unsigned
     }
 
-    /// A width: a size from 1 to the most bits of a net.
     pub(super) fn width(&mut self, size: SizeId, frame: u32) -> Option<u32> {
         let value = self.size(size, frame)?;
         let width = u32::try_from(value).ok();
@@ -166,7 +159,6 @@ impl<'a> ModuleBuilder<'a, '_> {
         width
     }
 
-    /// The bits of a slice of a net that wide.
     pub(super) fn slice(&mut self, bits: (SizeId, SizeId), width: u32, name: &str, frame: u32) -> Option<Range<u32>> {
         let (high, low) = (self.size(bits.0, frame)?, self.size(bits.1, frame)?);
         let ends = [bits.0, bits.1].map(|end| self.circuit.sizes[end.0 as usize]);

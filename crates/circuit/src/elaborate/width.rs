@@ -15,7 +15,6 @@ pub(super) enum PartWidth {
     Known(u32),
     /// As many bits as its context needs: it has only numbers without a width.
     Free,
-    /// Not known yet.
     Unknown,
 }
 
@@ -36,7 +35,6 @@ impl PartWidth {
         if self == Self::Free { Some(1) } else { self.bits() }
     }
 
-    /// The width of parts that are equally wide: a known one before one that may become known.
     fn common(parts: impl Iterator<Item = Self>) -> Self {
         parts.fold(Self::Free, |common, part| match (common, part) {
             (Self::Known(_), _) | (_, Self::Free) => common,
@@ -45,7 +43,6 @@ impl PartWidth {
     }
 }
 
-/// The widths of the parts of an expression and of its values, and the first net whose width is missing.
 pub(super) struct ExpressionWidths {
     first: u32,
     parts: Vec<PartWidth>,
@@ -67,7 +64,6 @@ impl ExpressionWidths {
 }
 
 impl ModuleBuilder<'_, '_> {
-    /// Infers the width of every net. A net that depends on others comes after them.
     pub(super) fn infer_widths(&mut self) {
         self.give_declared_widths();
         let mut open: VecDeque<u32> = (0..self.items.len() as u32).filter(|&item| self.is_open(item)).collect();
@@ -101,7 +97,6 @@ impl ModuleBuilder<'_, '_> {
         }
     }
 
-    /// Whether a statement drives a whole net without a width.
     fn is_open(&self, item: u32) -> bool {
         let item = self.items[item as usize];
         item.targets.iter().any(|target| {
@@ -110,7 +105,7 @@ impl ModuleBuilder<'_, '_> {
         })
     }
 
-    /// Infers what is possible. A statement that waits for a net is processed again when that net has its width.
+    /// A statement that waits for a net is processed again when that net has its width.
     fn settle(&mut self, mut open: VecDeque<u32>) -> VecDeque<u32> {
         let mut waiting: std::collections::BTreeMap<usize, Vec<u32>> = std::collections::BTreeMap::new();
         let mut stuck = VecDeque::new();
@@ -150,7 +145,6 @@ impl ModuleBuilder<'_, '_> {
             }
             match width {
                 PartWidth::Known(width) => self.give_width(net, width),
-                // Numbers alone are bits.
                 PartWidth::Free if of_numbers && !self.wide_number(item.value) => self.give_width(net, 1),
                 _ => {}
             }
@@ -170,7 +164,6 @@ impl ModuleBuilder<'_, '_> {
         self.failed = true;
     }
 
-    /// The widths of an expression, from its leaves to its root without recursion.
     pub(super) fn widths(&mut self, root: ExpressionId, frame: u32) -> ExpressionWidths {
         let first = self.circuit.first_leaf(root).0;
         let mut found = ExpressionWidths { first, parts: Vec::new(), values: Vec::new(), missing: None };
@@ -246,14 +239,12 @@ impl ModuleBuilder<'_, '_> {
         width
     }
 
-    /// Whether a call with these operands is as wide as the numbers among them.
     fn is_number(&self, operands: &[Option<PartWidth>]) -> bool {
         let has = |width| operands.contains(&Some(width));
         has(PartWidth::Free) && (self.only_loops || !has(PartWidth::Unknown))
     }
 
-    /// The widths of the outputs of a call. Where only a number tells a parameter, the outputs are as free as the
-    /// number.
+    /// Where only a number tells a parameter, the outputs are as free as the number.
     fn call_widths(
         &mut self,
         id: ExpressionId,

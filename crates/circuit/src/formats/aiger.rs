@@ -14,11 +14,9 @@ use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::Function;
 
-/// What version 1.9 of the format adds to the header.
 const EXTRA: [&str; 4] =
     ["bad-state properties", "invariant constraints", "justice properties", "fairness constraints"];
 
-/// Reads a file; `clock` names the clock of its latches.
 pub fn read(bytes: &[u8], clock: Option<&str>) -> Result<Design, Diagnostic> {
     AigerReader::new(bytes).read(clock)
 }
@@ -377,8 +375,6 @@ impl Literals {
     }
 }
 
-/// A design as AIGER, binary or as text.
-///
 /// # Panics
 /// When the logic of the design has loops; a design that was read has none.
 pub fn write(design: &Design, binary: bool) -> Vec<u8> {

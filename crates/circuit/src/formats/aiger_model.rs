@@ -71,7 +71,6 @@ impl AigerModel {
     }
 }
 
-/// The system of a graph: its variables are renumbered, the gates in an order in which each reads earlier ones.
 fn system(variables: usize, graph: &AigerGraph, wanted: &[Placed]) -> Result<TransitionSystem, Diagnostic> {
     let mut known: Vec<Option<AndLiteral>> = vec![None; variables + 1];
     known[0] = Some(0);

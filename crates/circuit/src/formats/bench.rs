@@ -9,7 +9,6 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::Function;
 use nbc_base::source::{FileId, Span};
 
-/// Reads a file; `clock` names the clock of its flip-flops.
 pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec<Diagnostic>> {
     let mut draft = Draft::default();
     let mut start = 0;

@@ -137,12 +137,10 @@ fn is_long(name: &str) -> bool {
 struct Extent {
     depth: usize,
     statements: usize,
-    /// The bytes that an instance takes, roughly.
     bytes: usize,
 }
 
 impl<'t> Models<'t> {
-    /// Measures a model at `depth`, each model once, or returns the error at the place where a limit is exceeded.
     fn extent(&self, model: usize, depth: usize, known: &mut [Option<Extent>]) -> Result<Extent, Diagnostic> {
         // A model that contains itself is reported at the place of the instance.
         known[model] = Some(Extent::default());
@@ -243,7 +241,7 @@ impl<'t> Models<'t> {
         }
     }
 
-    /// An attribute of the last statement; the only relevant one is the start value of a net on a feedback loop.
+    /// Only the start value of a net on a feedback loop matters.
     fn attribute(&mut self, words: &Words<'t>) {
         let &[("init", _), (value, span)] = &words[..] else { return };
         let statement = self.all.last_mut().and_then(|model| model.statements.last_mut());
@@ -283,7 +281,6 @@ impl<'t> Models<'t> {
     }
 }
 
-/// The logical lines: without comments and empty lines, and with continuation lines joined.
 fn lines(text: &str, file: FileId) -> impl Iterator<Item = Words<'_>> {
     let mut rest = text.split_inclusive('\n').scan(0, |start, line| {
         *start += line.len();
@@ -306,7 +303,6 @@ fn lines(text: &str, file: FileId) -> impl Iterator<Item = Words<'_>> {
     })
 }
 
-/// An instance of a model: the beginning of its names, and the nets of its ports.
 #[derive(Default)]
 struct Instance<'t> {
     prefix: String,
@@ -395,7 +391,6 @@ impl<'m, 't> Flat<'m, 't> {
         self.draft.registers.push(DraftRegister { register, output, next, forcing: Vec::new(), span });
     }
 
-    /// A register with a set or a reset, as a cell of Yosys; `pins` are its nets by its ports.
     fn forced(&mut self, cell: &str, pins: &BTreeMap<&str, String>, start: Option<bool>, span: Span) -> bool {
         let Some(form) = forced_cell(cell) else { return false };
         let mut net = |port: &str| pins.get(port).map(|net| self.draft.name(net));
@@ -452,8 +447,7 @@ impl<'m, 't> Flat<'m, 't> {
         }
     }
 
-    /// Defines the net of an instance whose model computes a function of one or two inputs. It becomes one cell,
-    /// however many gates the model has.
+    /// One cell for an instance that computes a function of one or two inputs, however many gates its model has.
     fn cell(&mut self, model: usize, ports: &BTreeMap<&'t str, String>, span: Span) -> Option<NetName> {
         let model = &self.models.all[model];
         let function = model.gate()?;

@@ -102,8 +102,7 @@ pub(super) struct ForcedCell {
     pub(super) ports: &'static [&'static str],
 }
 
-/// The register that a cell of Yosys is, such as `$_DFF_PP0_`. Yosys inverts nets that force a register while they
-/// are 0.
+/// A cell such as `$_DFF_PP0_`. Yosys inverts nets that force a register while they are 0.
 pub(super) fn forced_cell(cell: &str) -> Option<ForcedCell> {
     let (family, pins) = cell.strip_prefix("$_")?.strip_suffix('_')?.split_once('_')?;
     let (edge, force) = pins.split_at_checked(1)?;
@@ -130,8 +129,7 @@ pub(super) fn forced_cell(cell: &str) -> Option<ForcedCell> {
     Some(ForcedCell { kind, forcing, start, clock: if is_latch { "E" } else { "C" }, ports })
 }
 
-/// A register with a set or a reset, its next value and value, as a line for a cell of Yosys. The start value of one
-/// with both is an attribute.
+/// The start value of a register with both a set and a reset is an attribute.
 pub(super) fn cell_of(register: &Register, clock: &str, [next, value]: [&str; 2], forcing: &[&str]) -> String {
     let (family, edge, port) = match register.kind {
         RegisterKind::Rising => ("DFF", 'P', 'C'),

@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::NetId;
 use crate::formats::Design;
 
-/// A port or a net of one bit or several, made of the bits of a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bus {
     /// Without the number of a bit.
@@ -14,9 +13,8 @@ pub struct Bus {
     pub bits: Vec<usize>,
 }
 
-/// The buses of bits with these names, in the order of their first bits. Bits are one bus if their numbers have no gap;
-/// the lowest need not be 0. The rightmost bit of a bus is its lowest one, or the highest one if the bus is
-/// `ascending`. Every other name is a bus of one bit.
+/// Bits are one bus if their numbers have no gap, from any number on. The rightmost bit is the lowest, or the highest
+/// of an `ascending` bus. Every other name is a bus of one bit.
 pub fn buses(names: &[String], ascending: &BTreeSet<String>) -> Vec<Bus> {
     let mut numbered: BTreeMap<&str, BTreeMap<i64, usize>> = BTreeMap::new();
     let mut apart: BTreeSet<&str> = BTreeSet::new();
@@ -47,8 +45,7 @@ pub fn buses(names: &[String], ascending: &BTreeSet<String>) -> Vec<Bus> {
     all
 }
 
-/// The ports of a design whose bits are numbered otherwise than from 0 at the right. A program of the language numbers
-/// them so.
+/// The ports whose bits are not numbered from 0 at the right, as the language numbers them.
 pub fn renumbered(design: &Design) -> Vec<String> {
     let logic = &design.logic;
     let names = |ids: &[NetId]| ids.iter().map(|&id| logic.net_name(id)).collect::<Vec<_>>();
@@ -61,8 +58,7 @@ pub fn renumbered(design: &Design) -> Vec<String> {
     ports.iter().flat_map(of_ports).collect()
 }
 
-/// The name of a bus and the number of its bit, from the name of the bit: `a` and -1 for `a[-1]`. `None` for other
-/// names.
+/// `a` and -1 for `a[-1]`; `None` for other names.
 pub(super) fn bit_number(bit: &str) -> Option<(&str, i64)> {
     let (name, number) = bit.strip_suffix(']')?.rsplit_once('[')?;
     let digits = number.strip_prefix('-').unwrap_or(number);

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 use crate::{NetId, Netlist};
 
-/// When a register takes its next value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RegisterKind {
     Rising,
@@ -60,13 +59,12 @@ impl Register {
         self.clock.as_deref().unwrap_or(Self::CLOCK)
     }
 
-    /// Its value before the first cycle in a swarm: 0 if the file does not say.
+    /// 0 if the file does not say.
     pub fn starts_at(&self) -> bool {
         self.start.unwrap_or(false)
     }
 }
 
-/// A circuit and its registers.
 #[derive(Clone, Debug)]
 pub struct Design {
     /// The logic: its inputs are the ports and then a register's value each, its outputs the ports, then a register's
@@ -78,7 +76,6 @@ pub struct Design {
 }
 
 impl Design {
-    /// A design whose buses have their highest number on the left.
     pub fn new(logic: Netlist, registers: Vec<Register>) -> Self {
         Self { logic, registers, ascending: BTreeSet::new() }
     }
@@ -91,14 +88,12 @@ impl Design {
         self.logic.outputs().len() - Register::outputs(&self.registers)
     }
 
-    /// For each register, the outputs that force it.
     pub(crate) fn forcing(&self) -> Vec<&[NetId]> {
         let mut rest = &self.logic.outputs()[self.outputs() + self.registers.len()..];
         let mut next = |register: &Register| rest.split_off(..register.forcing.nets().len()).expect("one for each net");
         self.registers.iter().map(&mut next).collect()
     }
 
-    /// The nets that drive these.
     pub(crate) fn forcing_nets(&self) -> Vec<Vec<NetId>> {
         let driver = |&output: &NetId| self.logic.pins(output)[0];
         self.forcing().into_iter().map(|outputs| outputs.iter().map(driver).collect()).collect()

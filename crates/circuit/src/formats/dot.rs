@@ -5,8 +5,7 @@ use std::fmt::Write;
 use crate::formats::names::starts;
 use crate::{Loops, Netlist, Node};
 
-/// Writes a netlist; cells on feedback loops are drawn with a double border, and memory elements with their start
-/// values.
+/// Cells on feedback loops have a double border, memory elements their start values.
 pub fn write(netlist: &Netlist) -> String {
     let loops = Loops::of(netlist);
     let starts = starts(netlist);

@@ -106,12 +106,10 @@ impl Draft {
         }
     }
 
-    /// Sets a net's value before the first cycle, which a feedback loop needs.
     pub fn start(&mut self, name: NetName, value: bool) {
         self.starts.insert(name, value);
     }
 
-    /// The net behind wires: `name` itself, or the net that it copies.
     fn source(&self, name: NetName) -> NetName {
         let mut at = name;
         for _ in 0..self.names.len() {
@@ -230,7 +228,6 @@ impl Draft {
         ports.chain(nexts).chain(registers().flat_map(forced)).collect()
     }
 
-    /// A wire for each net with a start value, to be driven when all is built.
     fn feedback(&self, logic: &mut Netlist, nets: &mut [Option<NetId>]) -> Vec<(NetName, NetId)> {
         let mut wires = Vec::new();
         for (&name, &start) in &self.starts {
@@ -243,7 +240,6 @@ impl Draft {
         wires
     }
 
-    /// Builds a net and all it depends on, without recursion.
     fn build(&mut self, root: NetName, used: Span, logic: &mut Netlist, nets: &mut [Option<NetId>]) {
         let mut open = vec![(root, used, 0usize)];
         let mut on_path = std::collections::BTreeSet::from([root]);
@@ -285,7 +281,6 @@ fn add(logic: &mut Netlist, definition: &Definition, nets: &[Option<NetId>]) -> 
     }
 }
 
-/// A balanced tree of gates of an associative function, with the last gate inverted if requested.
 fn gate(logic: &mut Netlist, function: Function, inverted: bool, mut nets: Vec<NetId>) -> NetId {
     while nets.len() > 2 {
         nets =

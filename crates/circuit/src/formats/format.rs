@@ -38,15 +38,10 @@ pub enum CircuitFormat {
     Blif,
     /// The PLA files of espresso, for few inputs and no state.
     Pla,
-    /// AIGER in binary (.aig).
     AigerBinary,
-    /// AIGER as text (.aag).
     AigerText,
-    /// Structural Verilog (.v).
     Verilog,
-    /// A drawing for Graphviz (.dot).
     Dot,
-    /// The project's own language.
     Nb,
 }
 

@@ -16,8 +16,7 @@ pub(super) struct ModelCover<'t> {
 const INPUTS: [Function; 2] = [Function::BUF, Function::BUF_B];
 const ROWS: u8 = 0b1111;
 
-/// The function of `output`, if it depends on an input; of one input, the function ignores the second one. `None` if a
-/// net is undefined, defined twice or on a loop.
+/// Of one input, the function ignores the second. `None` if a net is undefined, defined twice or on a loop.
 pub(super) fn gate<'t>(inputs: &[&'t str], output: &str, mut covers: Vec<ModelCover<'t>>) -> Option<Function> {
     let mut known: BTreeMap<&str, u8> =
         inputs.iter().zip(INPUTS).map(|(&input, values)| (input, values.bits())).collect();

@@ -18,9 +18,7 @@ pub enum ClockName<'n> {
 }
 
 impl FileNames {
-    /// A name for every input, output, cell and clock. `legal` turns a name into a valid one of the format, and `kept`
-    /// are reserved words.
-    ///
+    /// `legal` turns a name into a valid one of the format, and `kept` are reserved words.
     /// Names are assigned first to ports, then to clocks that are not ports, then to the values of registers and to the
     /// outputs for them (the last inputs and outputs), then to cells. An output that is the input of its name gets
     /// another name, unless the format has them `apart`.
@@ -70,7 +68,6 @@ impl FileNames {
     }
 }
 
-/// The name itself, or with the first free number appended.
 pub(super) fn free(taken: &mut BTreeSet<String>, wish: String) -> String {
     let numbered = (1..).map(|i| format!("{wish}_{i}"));
     let name = std::iter::once(wish.clone()).chain(numbered).find(|name| !taken.contains(name));
@@ -104,7 +101,6 @@ pub fn cells_in_order(netlist: &Netlist) -> Vec<NetId> {
     loops.order().iter().copied().filter(|&id| matches!(netlist.node(id), Node::Cell(_))).collect()
 }
 
-/// The value before the first cycle of every cell of a memory element.
 pub(super) fn starts(netlist: &Netlist) -> BTreeMap<NetId, bool> {
     let memory = Loops::memory(netlist).cores().concat();
     let own = |id: NetId| netlist.cell(id).and_then(|cell| cell.start);

@@ -12,7 +12,6 @@ use nbc_base::model::Function;
 /// The most bits of one call of a register: its start value must be a literal.
 const MOST_BITS: usize = 32;
 
-/// Writes a design: feedback keeps its start values, registers become calls of the standard circuits.
 pub fn write(design: &Design) -> String {
     let (names, loops) = (NbNames::new(design), Loops::of(&design.logic));
     let writer = Writer { design, names, loops, forcing: design.forcing_nets() };
@@ -72,7 +71,6 @@ impl Writer<'_> {
         declared
     }
 
-    /// Registers of a net of `width` bits, in runs that one call can make.
     fn runs<'r>(&self, known: &'r [(NetId, usize)], width: usize) -> Vec<&'r [(NetId, usize)]> {
         let register = |at: usize| &self.design.registers[at];
         let change = |at: usize| {
@@ -83,7 +81,6 @@ impl Writer<'_> {
         known.chunks(if together { MOST_BITS } else { 1 }).collect()
     }
 
-    /// The call of registers side by side, the lowest bit first.
     fn register(&self, run: &[(NetId, usize)]) -> String {
         let logic = &self.design.logic;
         let register = &self.design.registers[run[0].1];
@@ -150,7 +147,6 @@ impl Writer<'_> {
     }
 }
 
-/// A function of pins, one for each of its inputs, in the words of the language.
 fn expression(function: Function, pins: &[String]) -> String {
     let [a, b] = pins else {
         let [low, high] = function.halves().map(|half| expression(half, &pins[1..]));

@@ -62,7 +62,6 @@ pub(super) struct NbNames {
     pub(super) stand_ins: BTreeMap<NetId, NetId>,
     bits: BTreeMap<NetId, NamedBit>,
     taken: BTreeSet<String>,
-    /// The buses of the file whose leftmost bit has the lowest number.
     ascending: BTreeSet<String>,
 }
 
@@ -135,7 +134,6 @@ fn next_name(name: &str) -> String {
     bit.map_or_else(|| name.to_owned(), |(bus, bit)| format!("{bus}_next[{bit}]"))
 }
 
-/// Whether the language allows a name: letters, digits and underscores, and not a reserved word.
 pub fn is_word(name: &str) -> bool {
     word(name) == name
 }

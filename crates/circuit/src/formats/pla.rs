@@ -28,12 +28,10 @@ pub enum PlaType {
 }
 
 impl PlaType {
-    /// Whether outputs are open where no cube is.
     pub fn is_listed(self) -> bool {
         matches!(self, Self::OnesOrZeros | Self::All)
     }
 
-    /// What a digit of an output says; `None` if it says nothing.
     fn meaning(self, digit: u8) -> Option<Option<bool>> {
         match digit {
             b'1' | b'4' => Some(Some(true)),
@@ -55,12 +53,11 @@ pub struct Pla {
     pub inputs: Vec<(String, Span)>,
     pub outputs: Vec<(String, Span)>,
     pub kind: PlaType,
-    /// The place of the type, or of the file's first line.
     pub kind_span: Span,
     pub cubes: Vec<PlaCube>,
 }
 
-/// Reads a PLA as a circuit. An output is 1 where a cube sets it to 1, and 0 elsewhere, also where it is open.
+/// An output is 1 where a cube sets it to 1, and 0 elsewhere, also where it is open.
 pub fn read(text: &str, file: FileId) -> Result<Design, Vec<Diagnostic>> {
     let pla = parse(text, file)?;
     let mut draft = Draft::default();
@@ -244,7 +241,6 @@ impl Reader {
     }
 }
 
-/// The names of ports that the file does not name: the bits of one port, the highest on the left.
 fn numbered(letter: &str, width: usize, span: Span) -> Vec<(String, Span)> {
     match width {
         1 => vec![(letter.to_owned(), span)],
@@ -252,13 +248,12 @@ fn numbered(letter: &str, width: usize, span: Span) -> Vec<(String, Span)> {
     }
 }
 
-/// A design as PLA text. It has no registers and no loops, and so few inputs that its truth table can be written.
+/// The design has no registers and no loops, and so few inputs that its truth table can be written.
 pub fn write(design: &Design) -> String {
     let netlist = &design.logic;
     let (inputs, outputs) = (netlist.inputs(), netlist.outputs());
     let names = FileNames::new(netlist, &[], &[], true, |name| visible(name, &['#']));
     let list = |ids: &[NetId]| ids.iter().map(|&id| format!(" {}", names.net(id))).collect::<String>();
-    // The outputs of each cube, in the order in which cubes are found.
     let (mut cubes, mut cube_outputs) = (Interned::default(), Vec::new());
     for (output, table) in tables(design).into_iter().enumerate() {
         for cube in two_level::cover(&table, &table) {

@@ -38,7 +38,6 @@ struct Writer<'d> {
     title: String,
     starts: BTreeMap<NetId, bool>,
     guarded: Guarded,
-    /// For each cell on a loop that drives outputs, the output whose name it has.
     stand_ins: BTreeMap<NetId, NetId>,
     modules: BTreeMap<Function, (String, usize)>,
 }
@@ -167,8 +166,7 @@ impl<'d> Writer<'d> {
         }
     }
 
-    /// The nets that force a register and the values that it gets, the strongest first. Nets that are always 0 are not
-    /// among them: Yosys does not read them as events.
+    /// The strongest first, without nets that are always 0: Yosys does not read these as events.
     fn forcing(&self, register: &Register, outputs: &[NetId]) -> Vec<(String, u8)> {
         let values = match register.forcing {
             Forcing::SetReset => vec![1, 0],
@@ -208,7 +206,6 @@ fn is_constant(netlist: &Netlist, id: NetId) -> bool {
     matches!(netlist.node(id), Node::Constant(_))
 }
 
-/// The module of a function, which Yosys keeps as a module of its own.
 fn cell_module(function: Function, module: &str, pins: usize) -> String {
     let names = ["a", "b", "c"];
     let ports = names[..pins].iter().map(|name| format!("input {name}")).collect::<Vec<_>>().join(", ");

@@ -12,8 +12,7 @@ pub(super) struct VerilogPorts {
 }
 
 impl VerilogPorts {
-    /// The ports of a design. A name that inputs and outputs or other ports have too stays that of single bits, and so
-    /// does an output that a loop of cells drives: Yosys would give its cells other names.
+    /// A name used twice stays that of single bits, as does an output that a loop drives: Yosys would rename its cells.
     pub(super) fn new(design: &Design, is_loop: impl Fn(NetId) -> bool) -> Self {
         let logic = &design.logic;
         let (inputs, outputs) = (&logic.inputs()[..design.inputs()], &logic.outputs()[..design.outputs()]);
@@ -49,7 +48,6 @@ impl VerilogPorts {
         self.bits.get(&id).map(|(port, bit)| format!("{}[{bit}]", escaped(port)))
     }
 
-    /// The declarations of ports, each once; `name` names one that is a single bit.
     pub(super) fn declared(&self, word: &str, ids: &[NetId], name: impl Fn(NetId) -> String) -> Vec<String> {
         let mut done = BTreeSet::new();
         let mut declared = Vec::new();
@@ -73,7 +71,6 @@ fn is_visible(name: &str) -> bool {
     !name.is_empty() && name.chars().all(|c| c.is_ascii_graphic())
 }
 
-/// A name in Verilog; escaped with a backslash and a space if it is not a plain word.
 pub(super) fn escaped(name: &str) -> String {
     if is_plain(name) { name.to_owned() } else { format!("\\{name} ") }
 }

@@ -23,7 +23,6 @@ pub fn dissolve_wires(netlist: &mut Netlist) -> Result<(), NetlistError> {
     Ok(())
 }
 
-/// Every pin that its node needs must have a driver.
 pub fn check_drivers(netlist: &Netlist) -> Result<(), NetlistError> {
     for id in netlist.ids() {
         let wanted = match netlist.node(id) {
@@ -51,7 +50,6 @@ fn driver(netlist: &Netlist, wire: NetId) -> Result<NetId, NetlistError> {
     Err(NetlistError::WireLoop(netlist.net_name(wire)))
 }
 
-/// Moves a wire's name and start value onto its driver, if that is a cell that has none.
 fn inherit(netlist: &mut Netlist, wire: NetId, driver: NetId) {
     let Node::Wire { name, start, span } = netlist.node(wire).clone() else {
         return;

@@ -10,8 +10,7 @@ enum Folded {
     Cell(Function, Vec<NetId>),
 }
 
-/// A cell whose constant or repeated pins decide its output becomes a constant, an inverter or a wire. Memory and its
-/// guards stay as written even with constant pins; from the cells of an enable, only constants are removed.
+/// Memory and its guards stay as written even with constant pins; from the cells of an enable, only constants go.
 pub fn fold_constants(netlist: &mut Netlist) {
     let mut guarded = Guarded::of(netlist);
     for id in guarded.memory().order().to_vec() {
@@ -35,7 +34,6 @@ pub fn fold_constants(netlist: &mut Netlist) {
     }
 }
 
-/// The result for a cell; an inverter may be bypassed if its net is `free`.
 fn fold(netlist: &Netlist, function: Function, pins: &[NetId], free: impl Fn(NetId) -> bool) -> Folded {
     if function.inputs() > 2 {
         return Folded::Cell(function, pins.to_vec());
@@ -65,13 +63,11 @@ fn fold(netlist: &Netlist, function: Function, pins: &[NetId], free: impl Fn(Net
     Folded::Cell(function, vec![a, b])
 }
 
-/// Whether nets `a` and `b` can have the values `x` and `y`, judged by constants and equality.
 fn possible(netlist: &Netlist, a: NetId, b: NetId, x: bool, y: bool) -> bool {
     let allowed = |id, value| !matches!(netlist.node(id), Node::Constant(constant) if *constant != value);
     allowed(a, x) && allowed(b, y) && (a != b || x == y)
 }
 
-/// The opposite of a net: for a free inverter, its input.
 fn inverted(netlist: &Netlist, net: NetId, free: bool) -> Folded {
     match netlist.cell(net) {
         Some(Cell { function: Function::NOT, .. }) if free => Folded::Net(netlist.pins(net)[0]),

@@ -18,7 +18,6 @@ pub fn merge_registers(netlist: &mut Netlist) {
     merged_registers(netlist).into_iter().for_each(|(id, first)| merge(netlist, id, first));
 }
 
-/// The cells that would be merged with others, and those others.
 pub fn merged_registers(netlist: &Netlist) -> Vec<(NetId, NetId)> {
     const KIND: CellKind = CellKind::uniform(1, 1.0);
     let storage = Storage::of(netlist, |_| &KIND);
@@ -36,7 +35,6 @@ struct Classes {
     of_net: BTreeMap<NetId, usize>,
 }
 
-/// What distinguishes the cells of latches at first: their functions, start values and places in their latches.
 type Beginning = (Function, Option<bool>, usize);
 
 type Shape = (Function, Vec<usize>);
@@ -71,10 +69,8 @@ impl Classes {
     }
 }
 
-/// The classes of all nets that follow from those of the cells of latches.
 fn spread(netlist: &Netlist, loops: &Loops, of_memory: &BTreeMap<NetId, usize>) -> BTreeMap<NetId, usize> {
     let mut of_net = of_memory.clone();
-    // Above the numbers of the classes of latches.
     let mut fresh = of_memory.len()..;
     let mut known: BTreeMap<Shape, usize> = BTreeMap::new();
     for &id in loops.order().iter().filter(|id| !of_memory.contains_key(id)) {
@@ -99,7 +95,6 @@ mod tests {
     use super::*;
     use crate::{Cell, Logic};
 
-    /// Registers of eight NAND cells one after the other, and how each starts.
     fn shift(netlist: &mut Netlist, data: NetId, clock: NetId, starts: &[bool]) -> NetId {
         let opposite = netlist.add_gate(Function::NOT, &[clock]);
         starts.iter().fold(data, |data, &start| {

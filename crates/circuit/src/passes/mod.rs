@@ -15,13 +15,11 @@ pub use sweep::sweep;
 
 use crate::{NetId, Netlist, NetlistError};
 
-/// A transformation that preserves the function of a netlist.
 #[derive(Clone, Copy)]
 pub struct Pass {
     pub name: &'static str,
     pub about: &'static str,
     pub(crate) run: fn(&mut Netlist) -> Result<(), NetlistError>,
-    /// The cells of a netlist that it would merge with others, and those others.
     pub(crate) merged: fn(&Netlist) -> Vec<(NetId, NetId)>,
 }
 
@@ -65,7 +63,6 @@ pub fn run(netlist: &mut Netlist) -> Result<(), NetlistError> {
     ORDER.iter().try_for_each(|pass| (pass.run)(netlist))
 }
 
-/// The netlist after each pass, in order.
 pub fn after_each(mut netlist: Netlist) -> Result<Vec<(&'static Pass, Netlist)>, NetlistError> {
     let after = |pass: &'static Pass| (pass.run)(&mut netlist).map(|()| (pass, netlist.clone()));
     ORDER.iter().map(after).collect()

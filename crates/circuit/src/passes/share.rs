@@ -20,7 +20,6 @@ pub fn share(netlist: &mut Netlist) {
     }
 }
 
-/// The function of a constant or cell and the nets it reads, with the pins of a cell in order of their numbers.
 fn key(netlist: &Netlist, id: NetId) -> Option<(Function, Vec<NetId>)> {
     function(netlist, id).map(|function| ordered(function, netlist.pins(id)))
 }
@@ -43,7 +42,6 @@ pub(super) fn ordered<T: Ord>(function: Function, mut pins: Vec<T>) -> (Function
     }
 }
 
-/// Moves the receivers of `id` to `first`, which takes over the name if it has none.
 pub(super) fn merge(netlist: &mut Netlist, id: NetId, first: NetId) {
     netlist.move_listeners(id, first);
     let copy = netlist.cell(id).cloned();

@@ -12,7 +12,7 @@ use crate::{NetId, Netlist, NetlistError, Node};
 
 pub(super) struct LoopCut {
     pub(super) cell: NetId,
-    /// The name of the cell that it is in the mapping; none if no output depends on it.
+    /// None if no output depends on it.
     pub(super) name: Option<String>,
     /// The cell with which the passes have merged it, or itself.
     pub(super) merged: NetId,
@@ -48,7 +48,6 @@ pub(super) fn cuts(netlist: &Netlist, passes: &[Pass]) -> Result<Vec<LoopCut>, N
     Ok(cuts)
 }
 
-/// A unique name for each cell of a loop core: that of its net, with a number if two cells share one.
 pub(crate) fn core_names(netlist: &Netlist, loops: &Loops) -> BTreeMap<NetId, String> {
     let mut taken = BTreeSet::new();
     let cells = netlist.ids().filter(|&id| loops.contains(id) && matches!(netlist.node(id), Node::Cell(_)));

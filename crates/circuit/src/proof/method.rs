@@ -2,10 +2,8 @@
 
 use rand_chacha::ChaCha8Rng;
 
-/// How a netlist was proved equal to its source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// Every pattern of the inputs and cuts was simulated.
     Exhaustive {
         patterns: u64,
     },

@@ -42,9 +42,7 @@ fn prove_through(source: &Netlist, mapped: &Netlist, passes: &[Pass]) -> Result<
     prove_states([source, mapped], [&[], &[]], Vec::new(), passes)
 }
 
-/// Proves a design equal to the one that was read: outputs are equal in every state that belongs to one of the other's.
-/// `counterparts` says for each register that was read what it is in the other design. That need not be right: if it
-/// is not, the proof fails.
+/// `counterparts` says what each register that was read is in the other design; if that is wrong, the proof fails.
 pub(crate) fn prove_design(read: &Design, made: &Design, counterparts: Vec<Counterpart>) -> Result<Proof, ProofError> {
     let ports = |design: &Design| {
         let names = |ids: &[NetId]| ids.iter().map(|&id| design.logic.net_name(id)).collect::<Vec<_>>();
@@ -76,7 +74,6 @@ fn prove_states(
                 registers[1].len() + names.len() - 1
             })),
             (None, Some(&first)) => Counterpart::Like(first),
-            // What the result does without must not matter.
             (None, None) => {
                 lost.insert(cut.merged, registers[0].len() + cuts.len());
                 Counterpart::Unused

@@ -12,7 +12,6 @@ use crate::proof::method::Method;
 use crate::{NetId, Netlist, ProofError};
 use nbc_base::model::Function;
 
-/// What a bit of the state of a reference is in the result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Counterpart {
     /// The register or the cut of the result with this number.
@@ -23,7 +22,6 @@ pub enum Counterpart {
     Unused,
 }
 
-/// A circuit whose loops are cut open, as one side of a proof.
 pub struct Side<'a> {
     pub logic: &'a Netlist,
     pub registers: &'a [Register],
@@ -44,8 +42,7 @@ impl Side<'_> {
         self.logic.cell(cell).and_then(|cell| cell.start)
     }
 
-    /// The start of each cut, as far as it is known: its start value, or what follows from those of others with inputs
-    /// of 0, whatever the delays. `network` is the logic with all loops cut.
+    /// As far as they are known: start values, and what follows from them with inputs of 0, whatever the delays.
     fn starts(&self, network: &Network) -> Vec<TernaryBit> {
         let mut starts: Vec<TernaryBit> = self.cuts.iter().map(|&cut| self.start(cut)).collect();
         let first = network.outputs.len() - self.cuts.len();
@@ -79,7 +76,6 @@ pub struct StateRelation<'a> {
 type Pair = (String, Signal, Signal);
 
 impl StateRelation<'_> {
-    /// Proves the outputs equal, and that the relation holds at the start and after each step.
     pub fn prove(&self) -> Result<Method, ProofError> {
         self.starts()?;
         let Self { reference, result, .. } = self;
@@ -118,7 +114,6 @@ impl StateRelation<'_> {
         })
     }
 
-    /// Whether the relation holds at the start, and related registers change alike.
     fn starts(&self) -> Result<(), ProofError> {
         let Self { reference, result, .. } = self;
         for (register, &counterpart) in reference.registers.iter().zip(&self.registers) {
@@ -138,7 +133,7 @@ impl StateRelation<'_> {
         Ok(())
     }
 
-    /// Whether related cuts start alike. A start that follows from others may be unknown.
+    /// A start that follows from others may be unknown.
     fn cuts_start(&self, one: &Network, two: &Network) -> Result<(), ProofError> {
         let Self { reference, result, .. } = self;
         let [starts, others] = [(reference, one), (result, two)].map(|(side, network)| side.starts(network));
@@ -228,7 +223,6 @@ fn forced_value(network: &mut Network, register: &Register, value: Signal, nets:
     }
 }
 
-/// The gates of a network over other inputs: `signals` are those of its own inputs.
 fn over(network: &Network, inputs: usize, signals: &[Signal]) -> Network {
     let mut other = Network::new(inputs);
     other.outputs = other.include(network, signals);

@@ -15,17 +15,14 @@ use nbc_base::source::CancelFlag;
 
 const WORDS: usize = 32;
 
-/// Patterns found by the solver that are simulated together, and those of them in a word. Each of these has the rest of
-/// its share of the word for patterns that differ from it in some inputs.
+/// Patterns that are simulated together, and those of them in a word, filled up with patterns that differ little.
 const BATCH: usize = 16;
 const IN_A_WORD: usize = 4;
 
-/// The most clauses that the solver learns to merge a gate with one that seems equal: what is hard to see there may be
-/// easy at the outputs.
+/// The most clauses learned to merge two gates: what is hard to see there may be easy at the outputs.
 const GATE_PORTION: u64 = 1_000;
 
-/// The calls and the variables after which a solver is replaced: each pattern that it finds costs time for each
-/// variable, and what it has learned is mostly of signals that are proved already.
+/// When to replace a solver: a pattern costs time for each variable, and most of what it learned is proved already.
 const MOST_CALLS: usize = 100;
 const MANY_VARIABLES: usize = 1_000;
 
@@ -48,7 +45,6 @@ impl Comparison {
         Self { outputs: network.outputs.iter().map(|&output| signals[output as usize]).collect(), sweep }
     }
 
-    /// Proves a network equal; fails with an output and inputs at which it differs.
     pub fn compare(&mut self, network: &Network) -> Result<(), (usize, Vec<bool>)> {
         let signals = self.sweep.add(network);
         for (output, (&a, &b)) in self.outputs.iter().zip(&network.outputs).enumerate() {
@@ -78,7 +74,6 @@ pub struct SatSweep {
     /// The values of each signal, `values[signal][word]`.
     values: Vec<Vec<u64>>,
     hashes: Vec<u64>,
-    /// Patterns found by the solver that are in no word yet.
     found: Vec<Vec<bool>>,
     /// The signals that represent a class by their hashes, in order. Those of equal hashes are known to be different.
     classes: BTreeMap<u64, Vec<Signal>>,
@@ -92,7 +87,6 @@ pub struct SatSweep {
 pub enum Compared {
     Equal,
     Different(Vec<bool>),
-    /// The solver reached its limit.
     Open,
 }
 
@@ -163,7 +157,6 @@ impl SatSweep {
         for class in self.classes.get(&hash).cloned().unwrap_or_default() {
             let opposite = self.is_turned(signal) != self.is_turned(class);
             match self.compared_within((class, opposite), (signal, false), self.portion.min(GATE_PORTION)) {
-                // From here on the class represents the gate.
                 Compared::Equal => return (class, opposite),
                 Compared::Different(pattern) => self.found.push(pattern),
                 Compared::Open => {}
@@ -222,7 +215,6 @@ impl SatSweep {
         self.cones.solve(&assumed, gate, portion)
     }
 
-    /// Simulates the patterns that were found, and those that differ from them in some inputs.
     fn learn(&mut self) {
         let found = std::mem::take(&mut self.found);
         for patterns in found.chunks(IN_A_WORD) {
@@ -264,7 +256,6 @@ impl SatSweep {
 
 struct Cones {
     solver: Solver<SolverLimits>,
-    /// The variable of each signal that the solver has, as the literal that is true where the signal is 1.
     variable: BTreeMap<Signal, Lit>,
     defined: BTreeSet<Signal>,
     calls: usize,
@@ -280,7 +271,6 @@ impl Cones {
         self.solver.num_propagations()
     }
 
-    /// Whether signals can have these values. `gate` knows the gate of each signal that is no source.
     fn solve(&mut self, wanted: &[(Signal, bool)], gate: impl Fn(Signal) -> Option<Gate>, portion: u64) -> Solved {
         self.calls += 1;
         let mut waiting: Vec<Signal> = wanted.iter().map(|&(signal, _)| signal).collect();

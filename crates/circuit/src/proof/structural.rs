@@ -6,7 +6,7 @@ use crate::cells::compose;
 use crate::interned::Interned;
 use crate::network::{Gate, Network};
 
-/// Whether the outputs of two networks are the same functions of the same signals. If not, they may still be equal.
+/// Two networks may be equal although this is false.
 pub fn equal(one: &Network, two: &Network) -> bool {
     let mut forms = Forms { inputs: one.inputs, forms: Interned::default() };
     forms.outputs(one) == forms.outputs(two)
@@ -17,8 +17,7 @@ type Literal = (u32, bool);
 /// The functions that the two signals of a pair are of the pair, in the order of a function's bits.
 const PAIR: [u8; 2] = [0b1100, 0b1010];
 
-/// Signals in normal form: 0 is the constant 0, then the inputs, then functions of two earlier signals, without
-/// duplicates.
+/// 0 is the constant 0, then the inputs, then functions of two earlier signals, without duplicates.
 struct Forms {
     inputs: usize,
     /// The functions of two signals: the pair, the lower first, and a function that is 0 if both are 0.
@@ -36,8 +35,7 @@ impl Forms {
         network.outputs.iter().map(|&output| made[output as usize]).collect()
     }
 
-    /// A gate as a function of the pair of one of its pins, if the other pin is a function of the same pair, else of
-    /// its pins.
+    /// A function of the pair of one pin, if the other pin is a function of the same pair, else of its pins.
     fn gate(&mut self, gate: &Gate, [a, b]: [Literal; 2]) -> Literal {
         let pairs = [self.form(b.0), self.form(a.0)].into_iter().flatten().map(|(pair, _)| pair);
         let own = [a.0.min(b.0), a.0.max(b.0)];

@@ -16,7 +16,7 @@ use crate::{Environment, EnvironmentFault, Netlist};
 pub struct EnvironmentStep {
     pub(super) step: ClockStep,
     memories: Vec<MemoryPorts>,
-    /// For each memory, whether it begins with zeros. If not, its words may be any.
+    /// Whether each memory begins with zeros; if not, its words may be any.
     is_empty: Vec<bool>,
 }
 
@@ -35,7 +35,6 @@ pub(super) struct EnvironmentAnswer {
 }
 
 impl EnvironmentStep {
-    /// The step of an environment; `is_empty` says of each memory whether it begins with zeros.
     pub fn new(netlist: &Netlist, memories: Vec<MemoryPorts>, is_empty: Vec<bool>) -> Result<Self, EnvironmentFault> {
         Ok(Self { step: Environment::step(netlist, &memories)?, memories, is_empty })
     }
@@ -64,8 +63,7 @@ impl EnvironmentStep {
         self.step.outputs.iter().enumerate().filter_map(|(own, name)| Some((place(name)?, own))).collect()
     }
 
-    /// What a circuit and its environment answer each other before an edge. `inputs` are those of the circuit, `None`
-    /// where the environment gives them, and `words` are free values for what it reads.
+    /// `inputs` are `None` where the environment gives them, and `words` are free values for what it reads.
     pub(super) fn answer(
         &self,
         graph: &mut AndGraph,
@@ -130,7 +128,6 @@ impl EnvironmentStep {
         self.reads().map(|read| [0, 1].map(|at| take(read.ports[at].len()))).collect()
     }
 
-    /// The registers after an edge, and whether the reads before it had the addresses that stay the same.
     fn after(
         &self,
         graph: &mut AndGraph,

@@ -28,8 +28,7 @@ impl Bounded {
         system.constraints.iter().for_each(|&literal| self.unrolled.require(system, self.step, literal));
     }
 
-    /// Looks at one property in the present step, or begins with the next step. Returns a run that violates the
-    /// property, if there is one.
+    /// Looks at one property in this step, or begins the next step; returns a run that violates it, if there is one.
     pub(super) fn advance(
         &mut self,
         system: &TransitionSystem,
@@ -63,7 +62,6 @@ pub(super) struct Induction {
     unrolled: Unrolled,
     /// The number of steps in which the properties hold before the one that is looked at.
     pub(super) steps: usize,
-    /// For each property, what requires it in the steps before.
     required: Vec<batsat::Lit>,
     relevant: Vec<usize>,
 }
@@ -90,8 +88,7 @@ impl Induction {
         self.constrain(system);
     }
 
-    /// The properties that hold in a step because all of them hold in the steps before; the largest such set. `None` if
-    /// the portion of work ended before.
+    /// The largest set that holds in a step because it holds in those before; `None` if the portion of work ended.
     pub(super) fn proved(
         &mut self,
         system: &TransitionSystem,

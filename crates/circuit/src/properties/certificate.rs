@@ -23,8 +23,7 @@ pub enum InductiveProof {
 }
 
 impl InductiveProof {
-    /// Whether this proves that a property holds in every step. Properties that it takes as given need proofs of their
-    /// own.
+    /// Properties that it takes as given need proofs of their own.
     pub fn proves(&self, system: &TransitionSystem, property: usize) -> bool {
         match self {
             Self::Steps { steps, together } => {
@@ -58,7 +57,6 @@ fn holds_first(system: &TransitionSystem, required: &[AndLiteral], steps: usize)
     })
 }
 
-/// Whether all of these are 1 in a step after so many in which they are, whose states are different.
 fn holds_after(system: &TransitionSystem, required: &[AndLiteral], steps: usize) -> bool {
     let mut written = Written::default();
     written.steps(system, steps + 1);
@@ -74,7 +72,6 @@ fn holds_after(system: &TransitionSystem, required: &[AndLiteral], steps: usize)
     written.cannot(steps, required)
 }
 
-/// Whether clauses that hold in a step hold in the next one, and exclude a violation.
 fn is_kept(system: &TransitionSystem, property: usize, clauses: &[Clause], given: &BTreeSet<usize>) -> bool {
     let mut written = Written::default();
     written.steps(system, 2);
@@ -97,7 +94,6 @@ struct Written {
 }
 
 impl Written {
-    /// Writes so many steps, the first with any state.
     fn steps(&mut self, system: &TransitionSystem, steps: usize) {
         for step in 0..steps {
             let signals: Vec<Lit> =

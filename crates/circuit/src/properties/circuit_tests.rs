@@ -18,7 +18,6 @@ fn property(kind: PropertyKind, has_condition: bool, within: Option<usize>, befo
     Property { kind, text: String::new(), span, line: 1, has_condition, within, before }
 }
 
-/// A monitor of a circuit: `said` adds gates to its inputs, the ports and a clock, and returns its outputs.
 fn monitor(ports: usize, said: impl Fn(&mut Netlist, &[NetId]) -> Vec<NetId>) -> Netlist {
     let mut netlist = Netlist::new("monitor");
     let inputs: Vec<NetId> = (0..=ports).map(|at| netlist.add_input(format!("p{at}"))).collect();
@@ -214,7 +213,6 @@ fn agree(one: &Netlist, two: &Netlist, random: &mut ChaCha8Rng) -> bool {
     (0..300).all(|_| {
         let mut row: Vec<bool> = (0..inputs).map(|_| random.random()).collect();
         [false, true].into_iter().all(|clock| {
-            // The clock is the last input of a random machine.
             row[inputs - 1] = clock;
             one.settle(&row) == two.settle(&row)
         })
@@ -275,7 +273,6 @@ fn circuits_of_different_steps_are_not_compared() {
     assert_eq!(run.inputs, [[false], [true]]);
 }
 
-/// An environment of a random machine: a memory of four bits, which gives `i0`. The outputs are addresses and data.
 fn memory_beside(circuit: &Netlist, random: &mut ChaCha8Rng) -> (Netlist, Vec<MemoryPorts>) {
     let mut netlist = Netlist::new("memory");
     let outputs = 0..circuit.outputs().len();
@@ -296,7 +293,6 @@ fn memory_beside(circuit: &Netlist, random: &mut ChaCha8Rng) -> (Netlist, Vec<Me
     (netlist, vec![MemoryPorts { memory: 0, words: 3, width: 1, reads, writes }])
 }
 
-/// Whether a circuit and its environment violate a property in random steps: each is said of an input or output port.
 fn is_violated(
     circuit: &Netlist,
     beside: &(Netlist, Vec<MemoryPorts>),

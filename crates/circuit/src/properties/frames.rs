@@ -30,20 +30,16 @@ pub(super) enum Found {
 
 /// States from which a violation follows.
 struct Obligation {
-    /// They have to be taken out of the set of this number of steps.
     frame: usize,
     cube: Cube,
     state: Vec<bool>,
-    /// The inputs with which they lead to the next obligation, or violate the property.
     inputs: Vec<bool>,
     next: Option<usize>,
 }
 
-/// The sets of states, and what is to be taken out of them.
 pub(super) struct Frames {
     cancel: CancelFlag,
     property: usize,
-    /// Properties that are proved, and cubes that are known to be never reached.
     given: Vec<usize>,
     known: Vec<Cube>,
     step: Unrolled,
@@ -55,7 +51,6 @@ pub(super) struct Frames {
     /// The obligations so far; those that are open are the last of their frame.
     obligations: Vec<Obligation>,
     open: BTreeMap<usize, Vec<usize>>,
-    /// The frame whose cubes are tried in the next one, and the place of the cube.
     pushing: Option<(usize, usize)>,
     counts: Vec<usize>,
     spent: usize,
@@ -63,7 +58,6 @@ pub(super) struct Frames {
 }
 
 impl Frames {
-    /// The search for an invariant, with properties that are proved and cubes that are known to be never reached.
     pub(super) fn new(
         system: &TransitionSystem,
         property: usize,
@@ -151,7 +145,6 @@ impl Frames {
         if frame == 0 {
             return Found::Violation(self.run(system, obligation));
         }
-        // It may be left out already.
         if self.cubes[frame..].iter().flatten().any(|other| contains(other, &cube)) {
             return Found::Nothing;
         }
@@ -188,7 +181,6 @@ impl Frames {
         self.open.entry(self.obligations[obligation].frame).or_default().push(obligation);
     }
 
-    /// Looks for a state of the last set that violates the property; if there is none, begins with the next set.
     fn violating(&mut self, system: &TransitionSystem) -> Found {
         let last = self.steps();
         let bad = self.step.literal(system, 0, system.bad[self.property]);
@@ -213,7 +205,6 @@ impl Frames {
         Found::Nothing
     }
 
-    /// Tries whether a cube can be left out of the set after its own, too.
     fn push(&mut self, system: &TransitionSystem, frame: usize, place: usize) -> Found {
         let Some(cube) = self.cubes[frame].get(place).cloned() else {
             let last = self.steps();
@@ -232,7 +223,6 @@ impl Frames {
         Found::Nothing
     }
 
-    /// States that lead to the cube, or violate the property, with these inputs, as this state does.
     fn widened(&mut self, system: &TransitionSystem, state: &[bool], inputs: &[bool], to: Option<&Cube>) -> Cube {
         self.spent += 1;
         let other = self.step.solver.follower();
@@ -259,8 +249,7 @@ impl Frames {
         cube
     }
 
-    /// Whether a state outside of the cube in the set of so many steps leads into the cube. `is_new` says that the set
-    /// contains states of the cube.
+    /// `is_new` says that the set contains states of the cube.
     fn reaches(&mut self, system: &TransitionSystem, frame: usize, cube: &[ValuedBit], is_new: bool) -> Reached {
         let mut assumed = self.active[frame..].to_vec();
         assumed.push(self.constrained);
@@ -296,8 +285,7 @@ impl Frames {
         reached
     }
 
-    /// Leaves a cube, and more states with it, out of the set of so many steps and of later sets as far as that holds.
-    /// Returns the last of these sets.
+    /// Leaves out more states too as far as that holds; returns the last set that the cube is left out of.
     fn learn(&mut self, system: &TransitionSystem, frame: usize, cube: Cube) -> usize {
         let cube = self.wider(system, frame, cube);
         let mut last = frame;

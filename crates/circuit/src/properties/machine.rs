@@ -35,17 +35,14 @@ pub(super) struct Machine {
 }
 
 enum MachineKind {
-    /// The logic between the rises of a clock: its inputs are the ports and the state, its outputs the ports and the
-    /// next state.
+    /// Between edges: its inputs are the ports and the state, its outputs the ports and the next state.
     Clocked(Network),
-    /// One time step of all cells, whose values are the state: the inputs of the network are the ports and the cells,
-    /// and its outputs the ports and the cells. After so many time steps nothing changes any more.
+    /// One time step: ports and cells to ports and cells, the state. After so many nothing changes any more.
     Settling(Network, usize),
 }
 
 impl Machine {
-    /// The machine that a circuit is. Inputs are only those that make all outputs of `allowed` 1, of which each input
-    /// port is an input.
+    /// Inputs are only those that make all outputs of `allowed` 1, whose inputs are the input ports.
     ///
     /// # Panics
     /// When the netlist is not well formed.
@@ -62,7 +59,6 @@ impl Machine {
         Self { inputs: inputs.len(), clock, state, kind: MachineKind::Clocked(logic) }
     }
 
-    /// A circuit with feedback that is no flip-flop of one clock.
     fn settling(netlist: &Netlist, why: WaveError, allowed: &Network, cancel: &CancelFlag) -> Result<Self, NoSteps> {
         let mut plain = netlist.clone();
         let is_plain = dissolve_wires(&mut plain).map(|()| sweep(&mut plain));
@@ -84,8 +80,7 @@ impl Machine {
         self.clock.is_some()
     }
 
-    /// Whether it can make its steps with the edges of another's clock, one of its inputs: it has no state, and does
-    /// not read it.
+    /// It has no state and does not read that clock, so that it can make its steps with the clock's edges.
     pub(super) fn ignores(&self, clock: usize) -> bool {
         match &self.kind {
             MachineKind::Clocked(logic) => self.state.is_empty() && !reads(logic, clock),
@@ -107,7 +102,7 @@ impl Machine {
         shown
     }
 
-    /// What the outputs show in a step, and the state after it. `first` is 1 in the first step.
+    /// `first` is 1 in the first step.
     pub(super) fn step(
         &self,
         graph: &mut AndGraph,
@@ -159,8 +154,7 @@ fn settled(
     (0..time).fold(cells.to_vec(), |cells, _| applied(graph, step, inputs, &cells).split_off(outputs))
 }
 
-/// The number of time steps after which nothing changes any more, from any settled state and from the start, for all
-/// inputs that are allowed.
+/// From any settled state and from the start, for all inputs that are allowed.
 fn settling_time(step: &Network, allowed: &Network, start: &[StateBit], cancel: &CancelFlag) -> Result<usize, NoSteps> {
     let inputs = allowed.inputs;
     // The inputs before, the inputs now, and the cells.

@@ -21,14 +21,13 @@ pub struct Monitored {
     pub checks: TransitionSystem,
     /// The input ports of the circuit but for the clock.
     pub ports: Vec<usize>,
-    /// The input ports of the circuit but for the clock, and the literal of the system that each has.
+    /// The literal of the system for each of `ports`.
     pub given: Vec<AndLiteral>,
     pub clock: Option<StepClock>,
 }
 
 impl Monitored {
-    /// The system of a circuit and a monitor, maybe with an environment. The monitor has an output for each property,
-    /// and one before it for what the property depends on, if it has a condition.
+    /// The monitor has an output for each property, and one before it for what a property with a condition depends on.
     ///
     /// # Panics
     /// When the monitor does not have these ports, or has other memory than registers of its clock.
@@ -57,7 +56,6 @@ impl Monitored {
     }
 }
 
-/// What the assumptions say of the inputs alone, as a network of the input ports whose outputs must be 1.
 fn allowed(monitor: &ClockStep, properties: &[Property], ports: usize) -> Network {
     let mut made = Network::new(ports);
     let input = |signal: usize| (signal < 2 + ports).then_some(signal as Signal);

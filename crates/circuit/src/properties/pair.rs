@@ -11,8 +11,6 @@ use nbc_base::model::Function;
 use nbc_base::source::CancelFlag;
 
 impl Monitored {
-    /// The system of two circuits with the same ports.
-    ///
     /// # Panics
     /// When the circuits have different numbers of ports.
     pub fn of_two(circuits: [&Netlist; 2], cancel: &CancelFlag) -> Result<Self, (usize, NoSteps)> {

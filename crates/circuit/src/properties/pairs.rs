@@ -24,8 +24,7 @@ const MOST: usize = 50_000;
 
 const MOST_WORK: u64 = 50_000;
 
-/// Cubes of one or two registers that no run reaches, and the work of the proof. Each leaves out the start, and no step
-/// enters one from outside of all. There are none if they are too many, or the proof takes too long.
+/// Each leaves out the start, and no step enters one from outside of all; none if that takes too long to prove.
 pub(super) fn never_together(system: &TransitionSystem, cancel: &CancelFlag) -> (Vec<Cube>, u64) {
     let relevant = system.relevant();
     if relevant.len() > MOST_REGISTERS {
@@ -43,8 +42,7 @@ pub(super) fn never_together(system: &TransitionSystem, cancel: &CancelFlag) -> 
     (cubes, work)
 }
 
-/// Removes cubes that a step enters from outside of all of them; `false` if the work ended before all were tried. What
-/// is removed leaves states in which others may be entered.
+/// `false` if the work ended before all were tried. What is removed leaves states in which others may be entered.
 fn retain_kept(system: &TransitionSystem, cubes: &mut Vec<Cube>, work: &mut u64, cancel: &CancelFlag) -> bool {
     let mut step = Unrolled::new(false, cancel.clone());
     system.constraints.iter().for_each(|&constraint| step.require(system, 0, constraint));
@@ -81,7 +79,6 @@ fn retain_kept(system: &TransitionSystem, cubes: &mut Vec<Cube>, work: &mut u64,
     solved == Solved::No
 }
 
-/// What registers were in simulations.
 struct History {
     relevant: Vec<usize>,
     /// For each of them, its value in each run at each step.
@@ -117,8 +114,7 @@ impl History {
         history
     }
 
-    /// The cubes of one register, and of two of which none is in another, that no run reached; none if they are too
-    /// many.
+    /// Of one register, and of two of which none is in another; none if they are too many.
     fn candidates(&self, system: &TransitionSystem) -> Vec<Cube> {
         let registers =
             |cube: &[ValuedBit]| -> Cube { cube.iter().map(|&(place, value)| (self.relevant[place], value)).collect() };
@@ -157,7 +153,6 @@ fn everywhere(value: bool) -> u64 {
     if value { u64::MAX } else { 0 }
 }
 
-/// The values of a literal among those of the signals.
 fn word(values: &[u64], literal: AndLiteral) -> u64 {
     values[literal / 2] ^ everywhere(literal & 1 == 1)
 }

@@ -14,13 +14,11 @@ use nbc_base::source::CancelFlag;
 /// The steps in which only bounded search and induction are tried.
 const FIRST_STEPS: usize = 8;
 
-/// The most steps of an induction.
 const INDUCTION_STEPS: usize = 40;
 
 /// The work of one call of the solver in bounded search and induction.
 const PORTION: u64 = 2_000;
 
-/// The most work in the first steps.
 const FIRST_WORK: u64 = 20_000;
 
 /// How much more work the search for invariants does than bounded search, whose clauses are about many steps.
@@ -38,7 +36,6 @@ pub enum PropertyVerdict {
     },
 }
 
-/// Why a proof says nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EmptyProof {
     /// The constraints do not hold in any first step.
@@ -67,7 +64,6 @@ impl Default for SearchBudget {
     }
 }
 
-/// A search for the truth of all properties of a system, which is advanced in portions.
 pub struct PropertySearch {
     system: TransitionSystem,
     budget: SearchBudget,
@@ -76,24 +72,19 @@ pub struct PropertySearch {
     open: BTreeSet<usize>,
     bounded: Bounded,
     induction: Induction,
-    /// Whether a proof by induction over more steps is still tried.
     induces: bool,
     /// The search for an invariant of the first open property, with the steps that each has done.
     frames: Option<(usize, Frames)>,
-    /// The work of searches for invariants that have ended.
     frames_work: u64,
-    /// States that are never reached, as cubes, once they were looked for.
     known: Option<Vec<Cube>>,
     /// A run that violates a property, while shorter ones are looked for, and the work at which that ends.
     longer: Option<(usize, SystemRun, u64)>,
-    /// What is searched once all properties are decided, to find empty proofs: its first property is violated in
-    /// every step, the others in each step in which those of this system could be.
+    /// For empty proofs: the first property is violated in every step, the others where those of the system could be.
     checks: Option<TransitionSystem>,
     checked: Option<Box<Self>>,
 }
 
 impl PropertySearch {
-    /// A search that has done nothing yet.
     pub fn new(system: TransitionSystem, budget: SearchBudget, cancel: CancelFlag) -> Self {
         let open = (0..system.bad.len()).collect();
         let bounded = Bounded::new(&system, cancel.clone());
@@ -116,8 +107,7 @@ impl PropertySearch {
         }
     }
 
-    /// The search, which then also finds empty proofs. For each property, `checks` has what is 1 in a step in which it
-    /// could be violated.
+    /// Also finds empty proofs; `checks` has for each property what is 1 in a step in which it could be violated.
     #[must_use]
     pub fn with_checks(mut self, mut checks: TransitionSystem) -> Self {
         let is_needed = !checks.constraints.is_empty() || checks.bad.iter().any(|&check| check != 1);
@@ -147,7 +137,6 @@ impl PropertySearch {
         self.frames_work + self.frames.as_ref().map_or(0, |(_, frames)| frames.work())
     }
 
-    /// Whether all properties are decided, or the budget has ended.
     pub fn is_done(&self) -> bool {
         let is_checked = self.checks.is_none() && self.checked.as_ref().is_none_or(|checked| checked.is_done());
         self.cancel.is_raised() || self.has_decided() && is_checked
@@ -197,7 +186,7 @@ impl PropertySearch {
         matches!(self.verdicts.get(&property), Some(PropertyVerdict::Proved(_)))
     }
 
-    /// Why the proof of a property is empty; `None` if it is not, or this is not known.
+    /// `None` if the proof is not empty, or that is not known.
     pub fn empty_proof(&self, property: usize) -> Option<EmptyProof> {
         let checked = self.checked.as_ref().filter(|_| self.is_proved(property))?;
         match (checked.is_proved(0), checked.is_proved(property + 1)) {
@@ -207,7 +196,6 @@ impl PropertySearch {
         }
     }
 
-    /// Induction over one step more, all of which the bounded search has looked at.
     fn induce(&mut self) {
         self.induction.extend(&self.system);
         let steps = self.induction.steps;
@@ -272,7 +260,6 @@ impl PropertySearch {
         }
     }
 
-    /// Notes what is known of a property, after a check.
     fn decide(&mut self, property: usize, verdict: PropertyVerdict) {
         let verdict = match verdict {
             PropertyVerdict::Refuted(run) => {

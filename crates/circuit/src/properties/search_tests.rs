@@ -34,7 +34,6 @@ fn random_system(random: &mut ChaCha8Rng) -> TransitionSystem {
             value => Some(value % 4 == 1),
         })
         .collect();
-    // Late literals depend on much.
     let late = |random: &mut ChaCha8Rng| {
         let back = (random.next_u32() as usize % literals.len()).min(random.next_u32() as usize % literals.len());
         literals[literals.len() - 1 - back] ^ (random.next_u32() & 1) as usize
@@ -61,7 +60,6 @@ fn bits(number: usize, count: usize) -> Vec<bool> {
     (0..count).map(|bit| number >> bit & 1 == 1).collect()
 }
 
-/// For each property, the number of steps of a shortest violation, found by going through all states.
 fn exhaustive(system: &TransitionSystem) -> Vec<Option<usize>> {
     explored(system).0
 }
@@ -237,7 +235,6 @@ fn is_number(graph: &mut AndGraph, state: &[usize], number: usize) -> usize {
     state.iter().enumerate().map(bit).fold(1, |all, literal| graph.and(all, literal))
 }
 
-/// A counter of so many bits that begins again after `last`.
 fn counter(bits: usize, last: usize, wrong: usize) -> TransitionSystem {
     let mut graph = AndGraph::new(bits);
     let state: Vec<usize> = (0..bits).map(|at| graph.source(at)).collect();

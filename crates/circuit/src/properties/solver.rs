@@ -31,20 +31,17 @@ impl Callbacks for SolverLimits {
     }
 }
 
-/// Whether some values fulfill all clauses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Solved {
     Yes,
     No,
-    /// The portion ended before this was known.
     Open,
 }
 
 pub(super) struct ClauseSolver {
     solver: Solver<SolverLimits>,
     one: Lit,
-    /// Whether it chooses values of gates, and does not wait until they follow from their pins. That helps where values
-    /// are hard to find.
+    /// Whether it chooses values of gates, which helps where values are hard to find.
     chooses_gates: bool,
     calls: u64,
 }
@@ -66,7 +63,6 @@ impl ClauseSolver {
         self.one
     }
 
-    /// A new variable, as the literal that is 1 where it is.
     pub(super) fn fresh(&mut self) -> Lit {
         Lit::new(self.solver.new_var_default(), true)
     }
@@ -76,12 +72,10 @@ impl ClauseSolver {
         Lit::new(self.solver.new_var(lbool::UNDEF, false), true)
     }
 
-    /// Requires that one of these literals is 1.
     pub(super) fn clause(&mut self, literals: &[Lit]) {
         self.solver.add_clause_reuse(&mut literals.to_vec());
     }
 
-    /// The literal that is 1 where both are.
     pub(super) fn and(&mut self, a: Lit, b: Lit) -> Lit {
         let one = self.one;
         match (a, b) {
@@ -98,7 +92,6 @@ impl ClauseSolver {
         }
     }
 
-    /// Whether all clauses can hold with these literals at 1, as far as a portion of work tells.
     pub(super) fn solve(&mut self, assumed: &[Lit], portion: u64) -> Solved {
         self.calls += 1;
         self.solver.cb_mut().permit(portion);
@@ -116,13 +109,11 @@ impl ClauseSolver {
         self.solver.value_lit(literal) == lbool::TRUE
     }
 
-    /// Whether an assumption of the last call belongs to those that cannot hold together.
     pub(super) fn is_needed(&self, assumed: Lit) -> bool {
         self.solver.unsat_core_contains_var(assumed.var())
     }
 
-    /// The work so far: a unit for each call, each clause learned, and each hundred values derived. It does not depend
-    /// on the machine.
+    /// A unit for each call, each clause learned, and each hundred values derived; the same on every machine.
     pub(super) fn work(&self) -> u64 {
         self.calls + self.solver.cb().learned + self.solver.num_propagations() / 100
     }

@@ -12,7 +12,6 @@ pub struct SystemRegister {
 }
 
 /// A machine, and properties of its steps. In every step its inputs have any values that fulfill the constraints.
-///
 /// Literals are counted as in AIGER: signal 0 is the constant 0, then the inputs, the registers, and the gates.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TransitionSystem {
@@ -41,28 +40,23 @@ impl TransitionSystem {
         1 + self.inputs.len() + self.registers.len() + self.ands.len()
     }
 
-    /// The literal that is 1 where a register has a value.
     pub(super) fn has(&self, (at, value): ValuedBit) -> AndLiteral {
         self.register(at) ^ usize::from(!value)
     }
 
-    /// The literal that is 1 where a register has a value in the next step.
     pub(super) fn gets(&self, (at, value): ValuedBit) -> AndLiteral {
         self.registers[at].next ^ usize::from(!value)
     }
 
-    /// The register that a literal is, maybe inverted.
     pub(super) fn register_of(&self, literal: AndLiteral) -> Option<usize> {
         (literal / 2).checked_sub(1 + self.inputs.len()).filter(|&at| at < self.registers.len())
     }
 
-    /// The pins of the gate that a literal is, maybe inverted.
     pub(super) fn gate_of(&self, literal: AndLiteral) -> Option<[AndLiteral; 2]> {
         let at = (literal / 2).checked_sub(1 + self.inputs.len() + self.registers.len())?;
         Some(self.ands[at])
     }
 
-    /// The registers on which a property or a constraint depends, now or later.
     pub(super) fn relevant(&self) -> Vec<usize> {
         let mut seen = vec![false; self.signals()];
         let mut open: Vec<AndLiteral> = self.bad.iter().chain(&self.constraints).copied().collect();
@@ -103,13 +97,11 @@ impl TransitionSystem {
         run.inputs.iter().map(&mut step).collect()
     }
 
-    /// Whether the start values permit a state as the first.
     pub fn may_start(&self, state: &[bool]) -> bool {
         self.registers.iter().zip(state).all(|(register, &value)| register.start.is_none_or(|start| start == value))
     }
 
-    /// The first step of a run, counted from 0, that violates a property; `None` if none does, the run does not begin
-    /// at the start, or a constraint does not hold before.
+    /// Counted from 0; `None` if no step does, the run does not begin at the start, or a constraint fails before.
     pub fn violation(&self, property: usize, run: &SystemRun) -> Option<usize> {
         if !self.may_start(&run.start) {
             return None;
@@ -150,12 +142,10 @@ pub fn is_on(values: &[bool], literal: AndLiteral) -> bool {
 /// The states in which some registers have given values, in order of the registers.
 pub(super) type Cube = Vec<ValuedBit>;
 
-/// Whether no state of a cube may be the first of a run.
 pub(super) fn excludes_start(system: &TransitionSystem, cube: &[ValuedBit]) -> bool {
     cube.iter().any(|&(at, value)| system.registers[at].start == Some(!value))
 }
 
-/// Whether each state of `small` is in `large`.
 pub(super) fn contains(large: &[ValuedBit], small: &[ValuedBit]) -> bool {
     large.iter().all(|literal| small.binary_search(literal).is_ok())
 }

@@ -9,9 +9,8 @@ use nbc_base::source::CancelFlag;
 
 pub(super) struct Unrolled {
     pub(super) solver: ClauseSolver,
-    /// Whether the first step is the first of a run. If not, its state may be any.
+    /// Otherwise the first state may be any.
     from_start: bool,
-    /// The literal of each signal in each step, if it was asked for.
     steps: Vec<Vec<Option<Lit>>>,
 }
 
@@ -25,7 +24,6 @@ impl Unrolled {
         Self { solver: ClauseSolver::without_choice_of_gates(cancel), from_start: false, steps: Vec::new() }
     }
 
-    /// The literal of the solver for one of a step, with the clauses that define it.
     pub(super) fn literal(&mut self, system: &TransitionSystem, step: usize, literal: AndLiteral) -> Lit {
         // What is still to be defined, the first last.
         let mut open = vec![(step, literal / 2)];

@@ -10,8 +10,7 @@ pub enum NoSteps {
     Memory(WaveError),
     /// It has feedback that does not settle for some inputs.
     Unsettled { most: usize },
-    /// Its registers have another clock than those of the circuit that it is compared with, or it has none and reads
-    /// that clock.
+    /// It has another clock than the circuit that it is compared with, or has none and reads that clock.
     OtherSteps,
     /// A property reads the clock.
     ClockHasNoValue { clock: String },

@@ -18,8 +18,7 @@ pub struct PortRow {
 }
 
 impl RowFile {
-    /// The rows as bits of the ports of a circuit. A column is a port or a bit of one. Every input has columns, and at
-    /// least one output; the others may be anything.
+    /// A column is a port or a bit of one. Every input has columns, and at least one output; others may be anything.
     pub fn bind(&self, circuit: &str, inputs: &[Column], outputs: &[Column]) -> Result<Vec<PortRow>, Vec<Diagnostic>> {
         let (inputs, outputs) = self.places(circuit, inputs, outputs)?;
         let mut errors = Vec::new();

@@ -8,7 +8,6 @@ use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::{FileId, Span};
 
-/// A word of a line with its place, without blanks and quotes around it.
 type Cell<'t> = (&'t str, Span);
 
 /// Reads a file. A number is decimal, or hexadecimal after `0x`, where each digit stands for four bits; a cell that is
@@ -123,8 +122,7 @@ fn decimal(word: &str) -> Option<u128> {
     word.parse().ok().filter(|_| word.bytes().all(|digit| digit.is_ascii_digit()))
 }
 
-/// The bits of a number, at least one: those of a decimal number without zeros before the first 1, and four for each
-/// hexadecimal digit.
+/// Without zeros before the first 1 of a decimal number; four bits for each hexadecimal digit.
 fn number_width(word: &str) -> Option<usize> {
     match hexadecimal(word) {
         Some(digits) => {

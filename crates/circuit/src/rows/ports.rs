@@ -13,7 +13,6 @@ pub type RowPorts = (Vec<Column>, Vec<Column>);
 pub struct RowColumn {
     pub name: String,
     pub width: usize,
-    /// Whether it is an output, if the format says so.
     pub is_output: Option<bool>,
     pub span: Span,
 }
@@ -32,7 +31,6 @@ pub struct RowFile {
 }
 
 impl RowFile {
-    /// For each column, the place of its first bit in a row.
     pub fn starts(&self) -> Vec<usize> {
         let start = |next: &mut usize, column: &RowColumn| {
             *next += column.width;
@@ -41,8 +39,7 @@ impl RowFile {
         self.columns.iter().scan(0, start).collect()
     }
 
-    /// The ports of the columns: the inputs, then the outputs. Columns `x[0]`, `x[1]`, … without a gap are one port.
-    /// `outputs` names the outputs; by default they are those that the format says, or the last port.
+    /// Columns `x[0]`, `x[1]`, … without a gap are one port. By default the format names outputs, or the last is one.
     pub fn ports(&self, outputs: &[String]) -> Result<RowPorts, Diagnostic> {
         let widths = self.bus_widths();
         let (mut ports, mut seen): (Vec<(Column, Option<bool>)>, _) = (Vec::new(), BTreeSet::new());
@@ -74,7 +71,6 @@ impl RowFile {
         Ok((columns(inputs), columns(found)))
     }
 
-    /// The widths of the buses of which the file has all bits.
     fn bus_widths(&self) -> BTreeMap<&str, usize> {
         // The number of bits, and the highest. No bit is there twice, because columns have different names.
         let mut buses: BTreeMap<&str, (usize, usize)> = BTreeMap::new();

@@ -70,13 +70,11 @@ pub(super) fn too_many_bits(at: Span) -> Diagnostic {
     too_large(format!("the rows of the file have more than {} bits", Limit::RowBits.most()), at, LIMIT)
 }
 
-/// A row of a PLA that stands for too many, because so many inputs are open.
 pub(super) fn open_inputs(open: usize, at: Span) -> Diagnostic {
     let label = format!("expected at most {}, because all of their values are rows", Limit::TriedBits.most());
     too_large(format!("row leaves {} open", counted(open, "input")), at, label)
 }
 
-/// A PLA that says where outputs are 1, of too many inputs to list the others.
 pub(super) fn ones_only(inputs: usize, at: Span) -> Diagnostic {
     let message = format!("a PLA of this type describes all rows of {}", counted(inputs, "input"));
     let label = format!("expected at most {} inputs, or the type `fr` or `fdr`", Limit::TriedBits.most());
@@ -89,7 +87,6 @@ pub(super) fn no_port(column: &str, circuit: &str, meant: &Suggestion, at: Span)
         .with_suggestion(None, meant)
 }
 
-/// A port with no column, or without some of its bits.
 pub(super) fn no_column(port: &str, circuit: &str, at: Span) -> Diagnostic {
     let message = format!("file has no column for `{port}` of `{circuit}`");
     Diagnostic::new(Code::RowWidth, message, at, "expected it among these columns")
@@ -114,7 +111,6 @@ pub(super) fn no_inputs(at: Span) -> Diagnostic {
     value("no column is an input", at, "expected a column of an input, too")
 }
 
-/// An output, named by an option, that no column has.
 pub(super) fn no_output(output: &str, meant: &Suggestion) -> Diagnostic {
     let message = format!("the file has no columns for the output `{output}`");
     Diagnostic::without_place(Code::Unknown, message).with_suggestion(None, meant)

@@ -12,14 +12,12 @@ const MOST_CELLS: usize = 64;
 /// Values of nets; a net that is missing is unknown.
 pub(super) type Values = BTreeMap<NetId, TernaryBit>;
 
-/// The inverters and buffers of a netlist: every net is another net, or the opposite of one.
 #[derive(Clone, Debug)]
 pub struct Inverters {
     driver: BTreeMap<NetId, (NetId, bool)>,
 }
 
 impl Inverters {
-    /// Finds them: cells of one input, of two equal inputs, or of one input and a constant.
     pub fn of(netlist: &Netlist) -> Self {
         let driver = netlist.cells().filter_map(|(id, cell)| Some((id, only_pin(netlist, id, cell)?))).collect();
         Self { driver }
@@ -30,7 +28,6 @@ impl Inverters {
         self.steps(net).last().expect("a net leads to itself")
     }
 
-    /// The net, the net before its inverter or buffer, and so on, each with whether it has the opposite value.
     pub fn steps(&self, net: NetId) -> impl Iterator<Item = (NetId, bool)> + '_ {
         let mut seen = BTreeSet::from([net]);
         std::iter::successors(Some((net, false)), move |&(at, inverted)| {
@@ -100,13 +97,11 @@ impl<'a> Cone<'a> {
         self.cells.retain(|net| !self.element.contains(net));
     }
 
-    /// The nets before the element that change, nearest first.
     pub fn near(&self) -> impl Iterator<Item = NetId> + '_ {
         let changes = |net: &&NetId| !matches!(self.netlist.node(**net), Node::Constant(_));
         self.near.iter().filter(changes).copied()
     }
 
-    /// The cells between a net and the element.
     pub fn guards(&self, net: NetId) -> Vec<NetId> {
         let mut guards: BTreeSet<NetId> = BTreeSet::new();
         let mut grows = true;
@@ -121,7 +116,6 @@ impl<'a> Cone<'a> {
         guards.into_iter().collect()
     }
 
-    /// What follows from some values for the logic before the element.
     pub fn implied(&self, known: &Values) -> Values {
         let mut values = known.clone();
         let free: Vec<NetId> = self.cells.iter().copied().filter(|id| !known.contains_key(id)).collect();
@@ -136,8 +130,7 @@ impl<'a> Cone<'a> {
         values
     }
 
-    /// What follows from some values for the logic and the element, and the number of cells that a change passes in the
-    /// element one after the other; `None` if the values do not determine its state.
+    /// The values, and the cells that a change passes in the element; `None` if its state is not determined.
     pub fn stored(&self, known: &Values) -> Option<(Values, usize)> {
         let mut values = self.implied(known);
         for rounds in 1..=self.element.len() {

@@ -9,9 +9,8 @@ use crate::{NetId, Netlist, Node};
 const MOST_STEPS: usize = 32;
 const MOST_VISITS: usize = 1024;
 
-/// The memory elements, in order of their first cells. Every loop through several elements is longer than the loops of
-/// these elements, because it passes their guards too; so each element is a shortest loop, whatever the functions of
-/// the library. Elements that share cells are one.
+/// Every loop through several elements is longer than theirs, because it passes their guards too; so each element is a
+/// shortest loop, whatever the functions of the library. Elements that share cells are one.
 pub(super) fn elements(netlist: &Netlist, loops: &Loops) -> Vec<Vec<NetId>> {
     let starts = netlist.cells().filter(|(id, cell)| cell.start.is_some() && loops.contains(*id));
     let mut element_of: BTreeMap<NetId, usize> = BTreeMap::new();
@@ -35,7 +34,7 @@ pub(super) fn elements(netlist: &Netlist, loops: &Loops) -> Vec<Vec<NetId>> {
     elements.into_iter().filter(|element| !element.is_empty()).collect()
 }
 
-/// The cells of the shortest loop through a cell; only the cell itself if there is no short one.
+/// Only the cell itself if there is no short one.
 fn shortest_loop(netlist: &Netlist, start: NetId) -> Vec<NetId> {
     let mut from: BTreeMap<NetId, NetId> = BTreeMap::new();
     let mut level = vec![start];

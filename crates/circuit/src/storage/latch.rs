@@ -13,7 +13,6 @@ const MOST_DATA: usize = 6;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Latch {
     pub cells: Vec<NetId>,
-    /// The cells between the enable and them.
     pub guards: Vec<NetId>,
     pub enable: NetId,
     /// The net of which the enable is a copy or the opposite.
@@ -22,15 +21,13 @@ pub struct Latch {
     pub chain: Vec<NetId>,
     /// The value of the root for which the latch is open.
     pub open: bool,
-    /// The other nets that the guards and cells read.
     pub data: Vec<NetId>,
     /// How many cells one after the other a change passes in `cells` until the bit is stored.
     pub rounds: usize,
 }
 
 impl Latch {
-    /// The number of cycles by which data change too early to be kept if the enable closes the latch after `closed`
-    /// cycles, if they do; `earliest` has the first change of each net.
+    /// The cycles by which data change too early if the latch closes after `closed`; `earliest` has first changes.
     pub fn needed<'k>(
         &self,
         netlist: &Netlist,
@@ -140,8 +137,7 @@ fn closing(cone: &Cone) -> Option<(NetId, bool)> {
     both.into_iter().find(|&(net, value)| closes(net, value) && !closes(net, !value)).or_else(|| holding(cone))
 }
 
-/// The input of an element of one cell of three inputs with which the cell shows what it showed before, whatever its
-/// other input is, and the value of that input.
+/// The input, with its value, by which a cell of three inputs shows what it showed before.
 fn holding(cone: &Cone) -> Option<(NetId, bool)> {
     let &[cell] = cone.element else { return None };
     let holds = |net: NetId, value: bool| {
@@ -187,8 +183,7 @@ impl Trial<'_> {
         rounds.ok_or(WhyUnphased::NoEnable)
     }
 
-    /// The values with the element open, and the rounds after which its cells have them; `None` if it keeps its state
-    /// with these data.
+    /// The values, and the rounds after which its cells have them; `None` if it keeps its state with these data.
     fn opened(&self, data: &Values) -> Option<(Values, usize)> {
         let mut values = data.clone();
         values.insert(self.enable, Some(!self.closed));

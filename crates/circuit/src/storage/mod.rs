@@ -18,7 +18,6 @@ pub use latch::{Follower, Latch, Unphased, WhyUnphased};
 pub struct FlipFlop {
     pub first: usize,
     pub second: usize,
-    /// Whether it takes its data when the clock rises.
     pub rising: bool,
 }
 
@@ -57,10 +56,8 @@ impl Storage {
     }
 }
 
-/// The pairs of latches of which the second takes only the state of the first, and is open when the first is closed.
-///
-/// In a chain of latches any two neighbors are such a pair. Registers of one clock mostly take their data at the same
-/// edge, so the edge of more pairs counts first; between equals it is the rise.
+/// The second latch of a pair takes only the state of the first, and is open when that is closed. Any two neighbors in
+/// a chain are such a pair, so the edge of more pairs counts first; between equals it is the rise.
 fn flip_flops(latches: &[Latch], inverters: &Inverters) -> Vec<FlipFlop> {
     let pairs = pairs(latches, inverters);
     let key = |pair: &FlipFlop| (latches[pair.second].root, pair.rising);

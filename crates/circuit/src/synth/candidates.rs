@@ -5,10 +5,8 @@ use rand_chacha::ChaCha8Rng;
 use crate::network::{Signal, inverted};
 use nbc_base::model::Function;
 
-/// The most candidates that are tried in a visit.
 pub const TRIES: usize = 24;
 
-/// The most pairs of literals that are compared in a search for pairs.
 const MOST_PAIRS: usize = 2_000;
 
 /// Buckets of the table that finds exclusive ors, and the words of patterns that choose the bucket.
@@ -37,7 +35,6 @@ pub enum Replacement {
     Two(Function, Signal, Function, [Signal; 2]),
 }
 
-/// A literal: a signal, maybe inverted.
 type Literal = (Signal, bool);
 
 /// The function and the signal that a candidate's rest is combined with.
@@ -62,7 +59,6 @@ impl Finder {
         Self { exclusive: true, buckets: vec![Vec::new(); BUCKETS], ..Self::default() }
     }
 
-    /// Finds candidates of up to two signals, and of three signals if they may be `deep`.
     pub fn find(&mut self, rows: Rows<'_>, deep: bool, random: &mut ChaCha8Rng) {
         self.found.clear();
         let (on, off) = (std::mem::take(&mut self.on), std::mem::take(&mut self.off));
@@ -94,7 +90,6 @@ impl Finder {
         }
     }
 
-    /// Orders the words so that most signals are refuted by the first ones.
     fn sort_words(&mut self, on: &[u64], off: &[u64]) {
         self.hot.clear();
         self.hot.extend((0..on.len()).filter(|&i| on[i] | off[i] != 0));
@@ -237,7 +232,6 @@ fn exclusive_fits(a: &[u64], b: &[u64], on: &[u64], off: &[u64], hot: &[usize]) 
     Some(if xor { Function::XOR } else { Function::XNOR })
 }
 
-/// The function of two signals that is the AND (or the OR) of two literals of them.
 fn pair_function(one: bool, two: bool, and: bool) -> Function {
     inverted(if and { Function::AND } else { Function::OR }, [one, two])
 }

@@ -40,8 +40,7 @@ pub fn balanced(network: &Network) -> Option<Network> {
     Some(tree.network.swept())
 }
 
-/// The gates that are still needed if chains are trees, in order: each with the chain that ends in it, if it is long.
-/// `None` if there are no chains, or too many.
+/// In order, each with the long chain that ends in it. `None` if there are no chains, or too many.
 fn chains(network: &Network, levels: &[u32]) -> Option<Vec<(Signal, Option<Chain>)>> {
     let mut is_needed = vec![false; network.signals()];
     network.outputs.iter().for_each(|&output| is_needed[output as usize] = true);
@@ -101,7 +100,6 @@ impl Chain {
         Self { gates }
     }
 
-    /// The signals that its gates read, apart from each other.
     fn read<'n>(&'n self, network: &'n Network) -> impl Iterator<Item = Signal> + 'n {
         let pins = |signal: Signal| network.gate(signal).expect("a chain has gates only").pins;
         let first = self.gates.last().map(|&(signal, pin)| pins(signal)[pin]);
@@ -110,7 +108,6 @@ impl Chain {
 
     fn build(&self, network: &Network, made: &[Signal], tree: &mut Tree) -> Signal {
         let mut links = Vec::with_capacity(self.gates.len());
-        // The chain computes the opposite of what its links do where it is inverted.
         let mut is_inverted = false;
         for &(signal, pin) in self.gates.iter().rev() {
             let gate = network.gate(signal).expect("a chain has gates only");
@@ -146,7 +143,6 @@ fn is_exclusive(function: Function) -> bool {
     matches!(function, Function::XOR) || function == Function::XOR.inverted()
 }
 
-/// A network in which equal gates are made once.
 struct Tree {
     network: Network,
     known: BTreeMap<(u8, [Signal; 2]), Signal>,
@@ -160,13 +156,11 @@ impl Tree {
         }
     }
 
-    /// Whether one of two signals is the inverter of the other.
     fn are_opposite(&self, one: Signal, two: Signal) -> bool {
         let inverter = |signal: Signal| self.known.get(&(Function::NOT.bits(), [signal; 2])).copied();
         inverter(one) == Some(two) || inverter(two) == Some(one)
     }
 
-    /// A gate, unless it is constant or one of its pins.
     fn gate(&mut self, function: Function, pins: [Signal; 2]) -> Signal {
         match (function, pins) {
             (Function::AND, [0, _] | [_, 0]) => return 0,

@@ -12,7 +12,6 @@ use nbc_base::model::Function;
 
 pub(crate) const MOST_INPUTS: usize = 3;
 
-/// The most cells of a sequence.
 const MOST_CELLS: usize = 24;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,8 +21,7 @@ pub enum ExactResult {
     Unknown,
 }
 
-/// A network of fewer than `below` cells with the outputs of another network, with the minimal number of cells; visits
-/// at most `nodes` partial sequences, none after `cancel`. All cells must have the same cost.
+/// The minimal number of cells, below `below`, after at most `nodes` partial sequences. All cells have the same cost.
 pub fn fewer(network: &Network, prices: &Prices, below: u32, nodes: u64, cancel: &CancelFlag) -> ExactResult {
     let outputs = truths(network);
     let given = &START[..2 + network.inputs];
@@ -56,7 +54,6 @@ const START: [u8; 2 + MOST_INPUTS] = [0x00, 0xff, 0xaa, 0xcc, 0xf0];
 
 #[derive(Clone, Copy, Debug)]
 struct Operation {
-    /// Its function of the two values in the order of the search.
     effect: Function,
     cell: Function,
     pins: [Pin; 2],
@@ -120,9 +117,7 @@ struct Search<'a> {
     unused: u32,
     /// For a single target: the values that make it together with each value, as far as computed.
     closing: Vec<Option<Set>>,
-    /// The values that are minimal among their images under the permutations of inputs that keep every target.
     least: Set,
-    /// Partial sequences that may still be visited.
     nodes: u64,
     cancel: &'a CancelFlag,
 }
@@ -151,7 +146,6 @@ impl<'a> Search<'a> {
         self.nodes == 0 || self.cancel.is_raised()
     }
 
-    /// Adds `left` cells that make every target; returns whether this is possible.
     fn extend(&mut self, left: u32) -> bool {
         let missing = self.targets.iter().filter(|&&target| !holds(&self.made, target)).count() as u32;
         if missing == 0 {
@@ -181,7 +175,6 @@ impl<'a> Search<'a> {
         false
     }
 
-    /// Adds a cell, if its value is new and in order, and then the others; removes it again if they cannot be found.
     fn append(&mut self, operation: Operation, pins: [usize; 2], left: u32, missing: u32) -> bool {
         let [a, b] = pins.map(|pin| self.values[pin]);
         let value = apply(operation.effect, a, b);
@@ -233,7 +226,6 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Whether a cell that reads `i` and one of `others` makes a value of a set.
     fn one_makes(&self, i: usize, mut others: std::ops::Range<usize>, set: &Set) -> bool {
         let a = self.values[i];
         others.any(|j| match i == j {
@@ -252,7 +244,6 @@ impl<'a> Search<'a> {
         self.closing[usize::from(self.values[place])].as_ref().expect("values are prepared before they are asked for")
     }
 
-    /// The values from which one more cell makes the only target.
     fn closing_any(&self) -> Set {
         let mut any = Set::default();
         for place in 2..self.values.len() {
@@ -292,7 +283,6 @@ fn closing(pairs: &[Operation], target: u8, value: u8) -> Set {
     set
 }
 
-/// The ways to exchange three inputs.
 const EXCHANGES: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
 
 fn exchanged(order: &[usize; 3], value: u8) -> u8 {
@@ -356,8 +346,7 @@ mod tests {
         assert_eq!(fewest("nor", &[0x00, 0xaa, 0x55]), 1);
     }
 
-    /// The total number of cells for all functions of three inputs; functions that differ by an exchange of inputs need
-    /// the same number.
+    /// Functions that differ by an exchange of inputs need the same number of cells.
     fn total(cells: &str) -> usize {
         let images = |truth| EXCHANGES.iter().map(|order| exchanged(order, truth)).collect::<BTreeSet<u8>>();
         let classes = (1..=254).map(images).collect::<BTreeSet<_>>();

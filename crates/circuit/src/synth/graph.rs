@@ -23,7 +23,6 @@ pub struct GraphNode {
 
 #[derive(Clone, Debug, Default)]
 struct Scratch {
-    /// Gates on a walk over the removed gates.
     pending: Vec<Signal>,
     touched: Vec<Signal>,
     stale: Vec<bool>,
@@ -37,13 +36,11 @@ pub struct Graph<'p> {
     /// 64-bit words of values of each signal.
     pub width: usize,
     pub nodes: Vec<GraphNode>,
-    /// Each signal's values in the row of its number.
     pub all_values: Vec<u64>,
     fanout: Vec<Vec<Signal>>,
     pub outputs: Vec<Signal>,
     /// The gates in use, drivers first.
     pub order: Vec<Signal>,
-    /// The place of each gate in `order`.
     position: Vec<Option<ListIndex>>,
     free: Vec<Signal>,
     pub cost: u32,
@@ -119,7 +116,6 @@ impl<'p> Graph<'p> {
         &self.all_values[signal as usize * self.width..][..self.width]
     }
 
-    /// A gate of the library, found or made.
     pub fn make(&mut self, function: Function, pins: [Signal; 2]) -> Signal {
         let pins = match (function.depends_on(0), function.depends_on(1)) {
             (true, true) => pins,
@@ -147,7 +143,6 @@ impl<'p> Graph<'p> {
         self.fanout[shorter as usize].iter().copied().find(|&gate| equal(&self.nodes[gate as usize]) && stays(gate))
     }
 
-    /// A new gate without looking for an equal one.
     pub fn make_new(&mut self, function: Function, pins: [Signal; 2]) -> Signal {
         let stage = pins.map(|pin| self.nodes[pin as usize].stage).into_iter().max().unwrap_or(0);
         let node = GraphNode { function, pins, refs: 0, alive: true, stage, arrival: self.arrival(function, pins) };
@@ -200,7 +195,6 @@ impl<'p> Graph<'p> {
         Some(root)
     }
 
-    /// Computes a gate's values from those of its pins; returns whether they change.
     fn simulate(&mut self, signal: Signal) -> bool {
         let GraphNode { function, pins: [a, b], .. } = self.nodes[signal as usize];
         let (a, b, out) = (a as usize * self.width, b as usize * self.width, signal as usize * self.width);
@@ -213,7 +207,6 @@ impl<'p> Graph<'p> {
         changed != 0
     }
 
-    /// Whether two gates compute the same function of the same signals.
     pub fn same(&self, one: Signal, two: Signal) -> bool {
         let (one, two) = (self.node(one), self.node(two));
         let swapped = [two.pins[1], two.pins[0]];
@@ -279,7 +272,6 @@ impl<'p> Graph<'p> {
         self.scratch.pending = pending;
     }
 
-    /// Moves the receivers of `old` to `new`, and removes `old` and the gates that only it needed.
     pub fn substitute(&mut self, old: Signal, new: Signal) {
         for gate in std::mem::take(&mut self.fanout[old as usize]) {
             let before = self.nodes[gate as usize].pins;
@@ -333,7 +325,6 @@ impl<'p> Graph<'p> {
         }
     }
 
-    /// Computes stages and arrivals again, in order, and the values of the gates that read `root` where they change.
     pub fn refresh(&mut self, root: Signal) {
         self.scratch.stale.clear();
         self.scratch.stale.resize(self.nodes.len(), false);
@@ -376,13 +367,11 @@ impl<'p> Graph<'p> {
     }
 }
 
-/// The pins of a gate, a net on both of them counted once.
 fn distinct(pins: [Signal; 2]) -> impl Iterator<Item = Signal> {
     let [a, b] = pins;
     std::iter::once(a).chain((a != b).then_some(b))
 }
 
-/// Every pattern of some inputs, as words for each input.
 pub fn every_pattern(inputs: usize) -> Vec<Vec<u64>> {
     let words = (1usize << inputs).div_ceil(64);
     (0..inputs).map(|i| (0..words).map(|block| counting_word(i, block)).collect()).collect()

@@ -3,8 +3,7 @@
 
 use crate::network::{Network, Signal};
 
-/// Applies a search to pieces of at most `size` gates, the first one of `first` gates. The search sees a piece as a
-/// network of its own, with the stage of each input.
+/// The first piece has `first` gates. The search sees a piece as a network of its own, with the stage of each input.
 pub fn in_parts(
     network: &Network,
     stages: &[u32],

@@ -13,10 +13,7 @@ use nbc_base::model::Function;
 
 const PASSES: usize = 12;
 
-/// The network with the phase of each gate chosen for the library; `None` if the library cannot make a function.
-///
-/// The cells of a gate are chosen so that the exact cost of the network is least while the other choices stay. Of equal
-/// choices a random one is taken, which leads out of local optima.
+/// `None` if the library cannot make a function. Of equal choices a random one is taken, to leave local optima.
 pub fn assign_phases(network: &Network, prices: &Prices, random: &mut ChaCha8Rng) -> Option<Network> {
     let source = Source::of(network, prices)?;
     let mut phases = Phases::new(source, prices)?;
@@ -41,7 +38,7 @@ struct Source {
 }
 
 impl Source {
-    /// The gates of a network. Functions that take several cells in any phase are replaced by these cells.
+    /// Functions that take several cells in any phase are replaced by these cells.
     fn of(network: &Network, prices: &Prices) -> Option<Self> {
         let mut source =
             Self { inputs: network.inputs, gates: Vec::new(), outputs: Vec::new(), known: BTreeMap::new() };
@@ -237,7 +234,6 @@ impl<'p> Phases<'p> {
         }
     }
 
-    /// Chooses the cheapest cells for both phases of a gate.
     fn choose(&mut self, node: usize, random: &mut ChaCha8Rng) {
         let both = [2 * node, 2 * node + 1];
         let external = self.external_readers(both);
@@ -272,7 +268,6 @@ impl<'p> Phases<'p> {
         self.set_readers(both, external, true);
     }
 
-    /// The number of times that each of two opposite phases is read by other gates or shown.
     fn external_readers(&self, [plain, inverted]: [Phase; 2]) -> [u32; 2] {
         let by_inverter =
             |phase: Phase| u32::from(self.readers[phase ^ 1] > 0 && self.makings[phase ^ 1] == Making::Inverter);

@@ -21,8 +21,7 @@ impl Prices {
         Self { cells, clocks, recipes: Recipes::of(library) }
     }
 
-    /// All functions at two units, exclusive ors at `exclusive` units, inverters free: the first aim for libraries
-    /// without XOR.
+    /// All functions at two units, inverters free: the first aim for libraries without XOR.
     pub(crate) fn abstracted(exclusive: u32) -> Self {
         let price = |function: Function| match function {
             Function::XOR | Function::XNOR => exclusive,
@@ -33,7 +32,6 @@ impl Prices {
         Self::of(&complete().map(kind).collect())
     }
 
-    /// The abstract prices in which an exclusive or is slightly cheaper than its cells.
     pub(crate) fn ideal(&self) -> Self {
         let exclusive = self.cost(Function::XOR).unwrap_or(4);
         Self::abstracted(if exclusive > 1 { 2 * exclusive - 1 } else { 2 })
@@ -60,7 +58,6 @@ impl Prices {
         self.cells[usize::from(function.bits())]
     }
 
-    /// Whether every cell costs one.
     pub(crate) fn are_even(&self) -> bool {
         self.cells.iter().all(|&cost| cost <= 1)
     }
@@ -78,7 +75,6 @@ impl Prices {
     }
 }
 
-/// The functions of two inputs, and the inverter.
 pub(crate) fn complete() -> impl Iterator<Item = Function> {
     Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT)
 }

@@ -19,9 +19,7 @@ use crate::synth::shared_pairs::share_pairs;
 use crate::synth::walk::{self, DelayGoal, MANY_GATES, WalkPlan};
 use nbc_base::model::Function;
 
-/// The most inputs of a network that is searched as a whole.
 const WHOLE_INPUTS: usize = 12;
-/// The most gates of a network that is searched as a whole.
 const WHOLE_GATES: usize = 600;
 /// The product of gates and 64-bit words of patterns above which a walk over every pattern makes fewer visits.
 const WHOLE_WORK: u64 = 1_200_000_000;
@@ -34,7 +32,6 @@ const MOST_SHORTENING: u64 = 20_000;
 /// Above this number of gates, a network is only shared and mapped.
 const MOST_GATES: usize = 100_000;
 
-/// The network in cells of the library, as cheap as the effort finds it.
 pub fn reduce(
     network: &Network,
     stages: &[u32],
@@ -135,7 +132,6 @@ impl<'a> Reduction<'a> {
         WalkPlan { cancel: Some(self.cancel), ..WalkPlan::downhill(visits) }
     }
 
-    /// The search for the library's prices, and the search that first minimizes the number of gates of any kind.
     fn search_both_ways(
         &self,
         network: &Network,
@@ -158,8 +154,7 @@ impl<'a> Reduction<'a> {
         Ok(cheaper(best, other, self.prices))
     }
 
-    /// Minimizes the number of gates of any kind, where inverters are free and a search is stuck less often, then the
-    /// cost with inverters of half the price, then the cost.
+    /// Minimizes the gates of any kind with free inverters, where a search is stuck less often, then the cost.
     fn search_large(&self, network: &Network, direct: &Network, random: &mut ChaCha8Rng) -> Result<Network, Function> {
         let ideal = self.prices.ideal();
         let start = (0..2).try_fold(cover(network, &ideal, self.stages)?, |now, _| {
@@ -174,7 +169,6 @@ impl<'a> Reduction<'a> {
         Ok(self.search(&best, 1, random))
     }
 
-    /// The cheapest of a network of the library's cells and of two ways to make another network of these cells.
     fn in_phases(&self, best: Network, other: &Network, random: &mut ChaCha8Rng) -> Result<Network, Function> {
         let best = cheaper(best, cover(other, self.prices, self.stages)?, self.prices);
         let phased = assign_phases(other, self.prices, random).map(|phased| cover(&phased, self.prices, self.stages));
@@ -184,7 +178,6 @@ impl<'a> Reduction<'a> {
         })
     }
 
-    /// The search for a network's width and the effort; `share` is its part of the work.
     fn search(&self, network: &Network, share: u64, random: &mut ChaCha8Rng) -> Network {
         if !is_narrow(network) {
             let wide = self.search_wide(network, share, random);
@@ -235,13 +228,11 @@ impl<'a> Reduction<'a> {
         })
     }
 
-    /// The result of a search, unless it is more expensive than the network.
     fn no_dearer(&self, best: Network, search: impl FnOnce(&Network) -> Network) -> Network {
         let next = cover(&search(&best), self.prices, self.stages).expect("the network is made of the library's cells");
         if cost(&next, self.prices) <= cost(&best, self.prices) { next } else { best }
     }
 
-    /// A network of the minimal number of cells, if it has few inputs and the effort is sufficient.
     fn fewest(&self, best: Network) -> Network {
         let nodes = match self.effort {
             Effort::Fast => 10_000,
@@ -257,7 +248,6 @@ impl<'a> Reduction<'a> {
         }
     }
 
-    /// Makes gates earlier where that costs nothing, so that a network of the same cells settles sooner.
     fn shorten(&self, network: &Network, random: &mut ChaCha8Rng) -> Network {
         let visits = (SHORTENING_VISITS * network.gates.len() as u64).min(MOST_SHORTENING);
         let plan = WalkPlan { delay: DelayGoal::Shorten, ..self.downhill(visits) };
@@ -267,7 +257,6 @@ impl<'a> Reduction<'a> {
         }
     }
 
-    /// Alternately shortens the slowest path and reduces the cost without making the path longer.
     fn shorten_slowest_path(&self, network: &Network, random: &mut ChaCha8Rng) -> Network {
         let rounds = match self.effort {
             Effort::Fast => 1,
@@ -312,7 +301,6 @@ impl Round {
         }
     }
 
-    /// The visits to a part of `part` gates of a network of `all` gates that see surroundings.
     fn near(&self, part: u64, all: u64) -> u64 {
         (self.near * part).min(self.most_near * part / all.max(1))
     }

@@ -14,11 +14,9 @@ const MOST_WORDS: usize = 128;
 const BATCH: [u64; 3] = [32, 8, 1_000];
 /// Propagations of the solver that take about as long as a visit.
 const PROPAGATIONS: u64 = 4_000;
-/// The most signals that a comparison collects, as a multiple of those of the network.
 const MOST_SIGNALS: usize = 6;
 
-/// Searches for a cheaper network in `plan.visits` visits. Each call of the solver counts as one, and so do
-/// [`PROPAGATIONS`] of its propagations. Every network that it passes through is proved equal to the first.
+/// A call of the solver counts as a visit, as do [`PROPAGATIONS`] propagations; networks on the way are proved equal.
 pub fn improve_on_samples(
     network: &Network,
     prices: &Prices,
@@ -73,8 +71,7 @@ impl Samples {
         Self { words, next: WORDS }
     }
 
-    /// Adds a pattern with 63 of its neighbors; if there are many already, they replace the oldest ones that were not
-    /// random.
+    /// Adds a pattern with 63 of its neighbors, which may replace the oldest ones that were not random.
     fn learn(&mut self, pattern: &[bool], random: &mut ChaCha8Rng) {
         let at = if self.next < MOST_WORDS { self.next } else { WORDS + self.next % (MOST_WORDS - WORDS) };
         for (words, &value) in self.words.iter_mut().zip(pattern) {

@@ -32,7 +32,6 @@ struct Conjunctions {
     forms: Vec<Form>,
     literals: Vec<Literal>,
     sets: Vec<Vec<Literal>>,
-    /// The sets that contain a literal.
     members: BTreeMap<Literal, BTreeSet<usize>>,
     counts: BTreeMap<[Literal; 2], u32>,
     ranked: BTreeSet<(u32, std::cmp::Reverse<[Literal; 2]>)>,
@@ -83,7 +82,7 @@ impl Conjunctions {
         2 * signal + turned
     }
 
-    /// The number of gates and outputs that read each signal, directly or inverted. An output counts as two.
+    /// Read directly or inverted; an output counts as two.
     fn readers(&self, network: &Network) -> Vec<u32> {
         let mut readers = vec![0; network.signals()];
         for gate in network.gates.iter().filter(|gate| !is_alias(gate)) {
@@ -128,7 +127,6 @@ impl Conjunctions {
         Form::Set(self.sets.len() - 1)
     }
 
-    /// Combines the most frequent pairs as long as two sets share one.
     fn share(&mut self) {
         for i in 0..self.sets.len() {
             let set = self.sets[i].clone();
@@ -207,7 +205,6 @@ impl Conjunctions {
     }
 }
 
-/// Whether a gate equals a literal of one of its pins, or a constant.
 fn is_alias(gate: &Gate) -> bool {
     gate.pins[0] == gate.pins[1] || gate.function.arity() < 2
 }
@@ -219,12 +216,10 @@ fn in_order(one: Literal, two: Literal) -> [Literal; 2] {
 struct Builder {
     network: Network,
     made: Vec<Option<Literal>>,
-    /// The levels of gates before each signal of the new network.
     levels: Vec<u32>,
 }
 
 impl Builder {
-    /// The literal of the new network; a pair is made when it is read first.
     fn literal(&mut self, literal: Literal, forms: &[Form]) -> Literal {
         let signal = (literal / 2) as usize;
         let made = match (self.made[signal], &forms[signal]) {

@@ -34,7 +34,6 @@ pub struct Surroundings {
 }
 
 impl Surroundings {
-    /// Finds the surroundings of a gate and their values.
     pub fn look(&mut self, graph: &Graph<'_>, gate: Signal) {
         self.mark_dependents(graph, gate);
         self.leaves.clear();
@@ -67,8 +66,7 @@ impl Surroundings {
         }
     }
 
-    /// Collects the gates after the gate, up to some levels. All pins that depend on the gate are among them, so that
-    /// no input changes with the gate.
+    /// All pins that depend on the gate are among them, so that no input changes with the gate.
     fn collect_after(&mut self, graph: &Graph<'_>, gate: Signal, levels: u32) {
         self.after.clear();
         let mut level = vec![gate];
@@ -106,7 +104,6 @@ impl Surroundings {
         self.leaves.dedup();
     }
 
-    /// Moves the leaves away from the gate while there are few, then adds gates that read signals in sight only.
     fn collect_before(&mut self, graph: &Graph<'_>) {
         self.inside.clear();
         self.inside.resize(graph.nodes.len(), false);
@@ -131,7 +128,7 @@ impl Surroundings {
         self.before.extend(inner);
     }
 
-    /// The leaf whose pins add the fewest leaves; of several, the one latest in order.
+    /// Of several, the one latest in order.
     fn cheapest_leaf(&self, graph: &Graph<'_>) -> Option<usize> {
         let rank = |&(_, &leaf): &(usize, &Signal)| {
             let [a, b] = graph.node(leaf).pins;

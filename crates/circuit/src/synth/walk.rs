@@ -37,7 +37,6 @@ pub enum DelayGoal {
 }
 
 impl WalkPlan<'_> {
-    /// A walk that never climbs and never turns back.
     pub fn downhill(visits: u64) -> Self {
         Self { visits, climb: 0, patience: u64::MAX, delay: DelayGoal::Any, cancel: None }
     }
@@ -47,8 +46,7 @@ impl WalkPlan<'_> {
     }
 }
 
-/// Searches for a cheaper network of the same function. The patterns must be all that can occur; without patterns, each
-/// gate is seen in its surroundings only.
+/// The patterns must be all that can occur; without patterns, each gate is seen in its surroundings only.
 pub fn improve(
     network: &Network,
     prices: &Prices,
@@ -84,8 +82,7 @@ pub fn improve(
     if walk.graph.cost == best_cost { walk.graph.network() } else { best }
 }
 
-/// The network at the end of a walk over the patterns that can occur, be it more expensive or not: one of `plan.climb`
-/// visits may add a cell.
+/// The end of the walk, be it more expensive or not: one of `plan.climb` visits may add a cell.
 pub fn wander(
     network: &Network,
     prices: &Prices,
@@ -117,7 +114,6 @@ pub fn improve_all(
 struct Walk<'p, 'r> {
     graph: Graph<'p>,
     delay: DelayGoal,
-    /// Whether a visit looks only for candidates that are likely to pay.
     selective: bool,
     exclusive: u32,
     deadline: u32,
@@ -134,7 +130,6 @@ struct Walk<'p, 'r> {
 
 /// Above this number of gates, a visit looks only for candidates that are likely to pay.
 pub const MANY_GATES: usize = 150;
-/// The highest cost of making one gate earlier.
 const MOST_DELAY_PRICE: u32 = 6;
 
 impl<'p, 'r> Walk<'p, 'r> {
@@ -199,7 +194,6 @@ impl<'p, 'r> Walk<'p, 'r> {
         }
     }
 
-    /// Looks for a replacement of a gate that costs at most `slack`; returns whether the network changed.
     fn change(&mut self, gate: Signal, slack: u32) -> bool {
         let released = self.graph.released(gate) + slack;
         let deep = released >= if self.selective { 2 * self.graph.prices.unit() } else { 2 };
@@ -233,8 +227,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         self.finder.find(surroundings.rows(), deep, self.random);
     }
 
-    /// Finds the patterns in which the gate matters (`on`: and it is 1, `off`: and it is 0) and the gates that depend
-    /// on it.
+    /// `on`: the patterns in which the gate matters and is 1; `off`: those in which it matters and is 0.
     fn observe(&mut self, gate: Signal) {
         let width = self.graph.width;
         let places = self.graph.nodes.len();
@@ -300,7 +293,6 @@ impl<'p, 'r> Walk<'p, 'r> {
         self.finder.divisors.extend(all.filter(|&signal| !after[signal as usize] && graph.node(signal).stage <= stage));
     }
 
-    /// Tries candidates in random order, and uses the best one that adds at most `slack` to the cost.
     fn choose(&mut self, gate: Signal, slack: i64) -> bool {
         let mut best: Option<(i64, Replacement)> = None;
         for tried in 0..TRIES.min(self.finder.found.len()) {
@@ -342,7 +334,6 @@ impl<'p, 'r> Walk<'p, 'r> {
         (!same && !late).then_some(change)
     }
 
-    /// The cost released by removing the gate while `root` stays.
     fn hold_and_release(&mut self, root: Signal, gate: Signal) -> u32 {
         self.graph.hold(root);
         let released = self.graph.released(gate);

@@ -17,18 +17,15 @@ use crate::{Latch, NetId, Netlist, Node, Storage};
 pub(super) const MOST_ROOTS: usize = 4;
 /// The most inputs and memory cells that these nets depend on, for which only consistent values are tried.
 const MOST_LEAVES: usize = 10;
-/// The most cells before these nets.
 const MOST_CELLS: usize = 256;
 /// How often latches are looked for that may change while they close.
 const MOST_SWEEPS: usize = 16;
 
-/// What a change in a row may do at a latch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Passage {
     Open,
     /// The latch closes in this row, and its data may change before it is closed.
     Closing,
-    /// The latch is closed before its data change.
     Closed,
 }
 
@@ -71,7 +68,6 @@ impl Phase {
         self.copies.get(&update.node).copied().unwrap_or(update.node)
     }
 
-    /// Whether an update is that of a net itself, and not of a copy of a guard.
     pub fn is_real(&self, update: &NetUpdate) -> bool {
         !self.copies.contains_key(&update.node)
     }
@@ -81,7 +77,7 @@ impl Phase {
     }
 }
 
-/// Cuts a latch from its guards. If it is still closing, copies of the guards that only read the enable drive it.
+/// If the latch is still closing, copies of the guards that only read the enable drive it.
 fn close(graph: &mut NetGraph, latch: &Latch, is_closing: bool) -> Vec<(NetId, NetId)> {
     let copy_of: BTreeMap<NetId, NetId> = match is_closing {
         true => latch.guards.iter().map(|&guard| (guard, graph.add_node(graph[guard].clone()))).collect(),
@@ -116,8 +112,6 @@ fn drivers(graph: &NetGraph, node: NetId) -> Vec<(NetId, u8)> {
     graph.edges_directed(node, Incoming).map(|edge| (edge.source(), *edge.weight())).collect()
 }
 
-/// The latches in a phase of a row in which any of `sources` may switch.
-///
 /// A latch that an input closes through inverters keeps its state if its data change no earlier than it is closed. All
 /// that changes has a cause, so the latches that may change are found by starting with none.
 pub(super) fn passages<'k>(
@@ -162,7 +156,6 @@ struct Races<'a, F> {
 }
 
 impl<'k, F: Fn(NetId) -> &'k CellKind> Races<'_, F> {
-    /// Whether a latch that its root closes at the begin of a row is closed before its data can change.
     fn are_won(&mut self, latch: &Latch) -> bool {
         let Self { netlist, storage, passages, sources, kind, .. } = *self;
         let firsts = self.firsts.entry(latch.enable).or_insert_with(|| {
@@ -178,8 +171,7 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Races<'_, F> {
     }
 }
 
-/// The fewest cycles after which each net may change when the sources switch, by ways that avoid some nets: one for
-/// each cell on the way.
+/// In cycles, when the sources switch, by ways that avoid some nets: one for each cell on the way.
 pub(super) fn earliest(
     netlist: &Netlist,
     storage: &Storage,
@@ -206,7 +198,6 @@ pub(super) fn earliest(
     earliest
 }
 
-/// The values that the roots can have together when the circuit is at rest.
 pub(super) fn phases(netlist: &Netlist, roots: &[NetId]) -> Vec<RootValues> {
     let of = |bits: usize| roots.iter().enumerate().map(|(i, &root)| (root, bits >> i & 1 == 1)).collect();
     let all = || (0..1 << roots.len()).map(of).collect();
@@ -233,7 +224,6 @@ pub(super) fn phases(netlist: &Netlist, roots: &[NetId]) -> Vec<RootValues> {
     found.into_iter().collect()
 }
 
-/// The inputs and memory cells that some nets depend on, and the cells between; `None` if there are too many.
 fn before(netlist: &Netlist, roots: &[NetId]) -> Option<(Vec<NetId>, Vec<NetId>)> {
     let mut seen: BTreeSet<NetId> = roots.iter().copied().collect();
     let mut pending: VecDeque<NetId> = seen.iter().copied().collect();

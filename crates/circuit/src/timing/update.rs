@@ -18,9 +18,8 @@ pub(super) struct NetUpdate {
 
 /// The updates of a graph in an order with pins first, and the loops that are not one of `elements`.
 ///
-/// The cells of an element, given with the number of cells that a change passes in it, are all updated at once, that
-/// many times. Those of another loop are updated one after the other, twice: once for the change and once for the
-/// response to it.
+/// The cells of an element are updated at once, as often as the number given with it; those of another loop one after
+/// the other, twice: once for the change and once for the response to it.
 pub(super) fn unroll(
     graph: &NetGraph,
     elements: &BTreeMap<NetId, (&[NetId], usize)>,
@@ -51,7 +50,6 @@ struct UpdateOrder<'g> {
 }
 
 impl UpdateOrder<'_> {
-    /// An update for each of these nodes; they read the updates before.
     fn update_together(&mut self, nodes: &[NetId]) {
         let first = self.list.len();
         for &node in nodes {
@@ -63,14 +61,12 @@ impl UpdateOrder<'_> {
     }
 }
 
-/// The pins of a node with their drivers, pin 0 first.
 pub(super) fn pins(graph: &NetGraph, node: NetId) -> Vec<(u8, NetId)> {
     let mut pins: Vec<_> = graph.edges_directed(node, Incoming).map(|edge| (*edge.weight(), edge.source())).collect();
     pins.sort_unstable();
     pins
 }
 
-/// A loop core in depth-first order from the cells that listen to something outside.
 fn along(graph: &NetGraph, core: &[NetId]) -> Vec<NetId> {
     let is_inside = |node: &NetId| core.binary_search(node).is_ok();
     let entered = |&&node: &&NetId| pins(graph, node).iter().any(|(_, pin)| !is_inside(pin));

@@ -18,7 +18,6 @@ use nbc_base::model::Function;
 /// A net or a constant as a listener reads it, by steps later.
 type Place = (Result<NetId, bool>, i64);
 
-/// Proves that each of a machine's threads makes the steps of its source.
 pub fn certify(step: &ClockStep, machine: &WaveMachine) -> Result<Method, String> {
     let checker = Checker::new(step, machine)?;
     checker.check_starts()?;
@@ -36,7 +35,6 @@ struct Checker<'a> {
     machine: &'a WaveMachine,
     /// By how many steps each pin of a cell reads later than its driver shows.
     later: BTreeMap<(NetId, u8), i64>,
-    /// The bits of the source's state by their places and start values.
     bits: BTreeMap<(Place, &'a [bool]), usize>,
 }
 
@@ -79,7 +77,6 @@ impl<'a> Checker<'a> {
         (beats % period == 0).then(|| beats / period).ok_or_else(|| self.mixed(id))
     }
 
-    /// A net behind the cells that only delay it.
     fn place(&self, net: Result<NetId, bool>, mut later: i64) -> Place {
         let Ok(mut net) = net else { return (net, later) };
         while let Some(cell) = self.machine.netlist.cell(net) {
@@ -104,14 +101,12 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The bit of the state at a place that starts so.
     fn bit(&self, (net, later): Place, starts: &[bool], reader: NetId) -> Result<usize, String> {
         let missing = || reads_no_state(&self.machine.netlist.net_name(reader));
         self.bits.get(&(self.place(net, later), starts)).copied().ok_or_else(missing)
     }
 
-    /// The first bit of the state that is where a bit is, which is equal to it in every step, or the constant that it
-    /// always is.
+    /// The first bit of the state that is equal to it in every step, or the constant that it always is.
     fn equal(&self, bit: usize) -> Result<usize, bool> {
         let state = &self.machine.state[bit];
         match state.net {
@@ -120,7 +115,6 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether every bit starts as in the source, and every pin as the bit that it reads.
     fn check_starts(&self) -> Result<(), String> {
         for (bit, state) in self.step.state.iter().zip(&self.machine.state) {
             let first = state.starts.first().copied();
@@ -135,7 +129,6 @@ impl<'a> Checker<'a> {
         Ok(())
     }
 
-    /// The bits of the state that outputs depend on, directly or through others.
     fn needed_bits(&self) -> Vec<usize> {
         let (ports, outputs) = (self.step.inputs.len(), self.step.outputs.len());
         let logic = &self.step.logic;
@@ -181,7 +174,6 @@ impl<'a> Checker<'a> {
         made
     }
 
-    /// The machine, as a circuit of steps.
     fn machine(&self, needed: &[usize]) -> Result<Network, String> {
         let mut steps = Steps { checker: self, made: Network::new(self.inputs()), signals: BTreeMap::new() };
         let mut outputs = Vec::new();
@@ -217,7 +209,6 @@ struct Steps<'a> {
 }
 
 impl Steps<'_> {
-    /// What a pin reads that starts so: a bit of the state, or else a constant, a port or a cell.
     fn signal(&mut self, (net, later): Place, starts: &[bool], reader: NetId) -> Result<Signal, String> {
         let checker = self.checker;
         if !starts.is_empty() {

@@ -15,7 +15,6 @@ pub struct ClockRun {
 }
 
 impl ClockRun {
-    /// A circuit before its first step, with inputs of 0.
     pub fn new(step: ClockStep) -> Self {
         let ports = step.inputs.iter().map(|_| 0);
         let inputs = ports.chain(step.state.iter().map(|bit| if bit.start { !0 } else { 0 })).collect();
@@ -28,7 +27,7 @@ impl ClockRun {
         &self.step
     }
 
-    /// Applies inputs, in order of the ports. The value of the clock does not matter.
+    /// In order of the ports. The value of the clock does not matter.
     pub fn apply(&mut self, inputs: &[u64]) {
         assert_eq!(inputs.len(), self.step.inputs.len(), "a value for each input");
         self.inputs[..inputs.len()].copy_from_slice(inputs);
@@ -47,7 +46,6 @@ impl ClockRun {
         self.values[self.step.logic.outputs[port] as usize]
     }
 
-    /// The edge of the clock: the state becomes the next one.
     pub fn advance(&mut self) {
         let ports = self.step.inputs.len();
         let next = &self.step.logic.outputs[self.step.outputs.len()..];

@@ -25,7 +25,6 @@ pub struct ClockStep {
     pub outputs: Vec<String>,
     /// The clock, as an index of the inputs; `None` if there is no register.
     pub clock: Option<usize>,
-    /// Whether a step is a rise of the clock.
     pub rises: bool,
     pub state: Vec<StateBit>,
     /// The logic: its inputs are the ports and then the state, its outputs the ports and then the next state.
@@ -34,7 +33,6 @@ pub struct ClockStep {
     pub(super) signal_blocks: SignalBlocks,
 }
 
-/// A register as the latches of a flip-flop.
 struct Register {
     /// The cells of the second latch, each with whether it shows the opposite of the first of them.
     shows: Vec<(NetId, bool)>,
@@ -118,7 +116,6 @@ impl ClockStep {
         })
     }
 
-    /// The next state and the outputs before it, from the values of the ports and the state.
     pub fn run(&self, inputs: &[bool], state: &[bool]) -> (Vec<bool>, Vec<bool>) {
         let shown = self.logic.run(inputs.iter().chain(state).copied());
         let (outputs, next) = shown.split_at(self.outputs.len());
@@ -186,7 +183,7 @@ fn clock(netlist: &Netlist, registers: &[Register]) -> Result<Option<(NetId, boo
     Ok(Some(first.clock))
 }
 
-/// The bits of the state. Those without a start value start as the circuit does.
+/// Those without a start value start as the circuit does.
 fn state(netlist: &Netlist, registers: &[Register]) -> Result<Vec<StateBit>, WaveError> {
     let before = Logic::new(netlist);
     let bit = |register: &Register| {

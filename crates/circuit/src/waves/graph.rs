@@ -26,18 +26,15 @@ pub struct Tap {
 #[derive(Clone, Debug)]
 pub struct WaveGate {
     pub function: Function,
-    /// Its nets; one for a function of one input.
     pub pins: Vec<Tap>,
 }
 
-/// A step as a graph in which a register is a property of a net.
 #[derive(Clone, Debug)]
 pub struct WaveGraph {
     pub inputs: usize,
     /// The gates; along nets that are not later, each listens to earlier gates only.
     pub gates: Vec<WaveGate>,
     pub outputs: Vec<Tap>,
-    /// For each bit of the state, where it is: its net as a gate would read it.
     pub state: Vec<Tap>,
 }
 
@@ -88,7 +85,6 @@ impl WaveLogic {
         }
     }
 
-    /// The block of each gate of a network that was mapped from the logic of a step.
     pub fn blocks(&self, step: &ClockStep, mapped: &CellNetwork) -> Vec<BlockId> {
         let mut network = mapped.clone();
         self.show_state(&mut network);
@@ -105,8 +101,7 @@ impl WaveLogic {
         network.outputs[self.counts[2] + bit]
     }
 
-    /// Adds a buffer where no gate would show a bit of the state: in rings of registers alone, and in registers of a
-    /// port that an output shows.
+    /// Adds buffers for rings of registers alone and for registers of a port that an output shows: they have no gate.
     fn show_state(&self, network: &mut CellNetwork) {
         let [ports, bits, outputs] = self.counts;
         let add_buffer = |network: &mut CellNetwork, bit: usize| {
@@ -155,7 +150,6 @@ impl WaveLogic {
     }
 }
 
-/// The logic with ports that are a step later for the outputs that depend on ports, and what these ports are.
 fn with_late_ports(logic: &Network, [ports, _, outputs]: [usize; 3]) -> (Network, Vec<usize>) {
     let first_gate = 2 + logic.inputs;
     let mut depends: Vec<bool> = (0..first_gate).map(|signal| (2..2 + ports).contains(&signal)).collect();

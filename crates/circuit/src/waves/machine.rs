@@ -23,12 +23,10 @@ pub struct WaveOutput {
     pub starts: Vec<bool>,
 }
 
-/// Where a bit of the source's state is: on a net, as a listener at a phase reads it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WaveState {
-    /// The net; `None` for a bit that never changes after its first steps.
+    /// `Err` for a bit that never changes after its first steps.
     pub net: Result<NetId, bool>,
-    /// The number of steps by which the bit is later than the net.
     pub later: i64,
     pub starts: Vec<bool>,
 }
@@ -52,9 +50,7 @@ pub struct WaveMachine {
     pub outputs: Vec<WaveOutput>,
     /// The pins that read state, each with its values in the first steps.
     pub held: BTreeMap<(NetId, u8), Vec<bool>>,
-    /// Where the bits of the source's state are.
     pub state: Vec<WaveState>,
-    /// The number of cells that only delay.
     pub buffers: usize,
     /// Whether no phases of these gates need fewer such cells.
     pub has_fewest_buffers: bool,
@@ -64,7 +60,6 @@ pub struct WaveMachine {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reading {
-    /// The start value of a register.
     Start(bool),
     /// Its value at the end of the cycle with this number.
     Cycle(usize),
@@ -92,7 +87,6 @@ impl WaveMachine {
         (self.period * self.beat) as usize
     }
 
-    /// The beat in which the first step of the first thread begins.
     pub fn beginning(&self) -> i64 {
         let earliest = self.inputs.iter().flatten().copied().chain(self.outputs.iter().map(|output| output.phase));
         let earliest = earliest.min().unwrap_or(0).min(0);
@@ -112,7 +106,6 @@ impl WaveMachine {
         (step - self.first_row()).clamp(0, rows as i64 - 1) as usize
     }
 
-    /// When an output port shows the result of a row, counted from 0, in a thread.
     pub fn reading(&self, output: usize, row: usize, thread: usize) -> Reading {
         let WaveOutput { phase, starts } = &self.outputs[output];
         match starts.get(row) {
@@ -146,12 +139,10 @@ impl WaveMachine {
         (0..ends).flat_map(|beat| std::iter::repeat_n(bit(beat), self.beat as usize)).collect()
     }
 
-    /// The drivers of chains of buffers, in order, each with the number of its buffers.
     pub fn chains(&self) -> Vec<(NetId, usize)> {
         self.chains.iter().map(|chain| (chain[0], chain.len() - 1)).filter(|(_, buffers)| *buffers > 0).collect()
     }
 
-    /// The thread whose wave a cell reads in a cycle.
     pub fn thread_at(&self, cell: NetId, cycle: usize) -> usize {
         let beat = (cycle / self.beat as usize) as i64;
         (beat - self.beginning() - self.phase[&cell]).rem_euclid(i64::from(self.period)) as usize
@@ -164,7 +155,6 @@ struct Builder<'a> {
     phases: &'a Phases,
     buffer: (Function, usize),
     machine: WaveMachine,
-    /// The net of each driver and of the buffers after it.
     chains: BTreeMap<Driver, Vec<NetId>>,
 }
 
@@ -235,7 +225,6 @@ impl<'a> Builder<'a> {
         self.machine
     }
 
-    /// The net that a listener at a phase reads: the driver, or the buffer after it that is late enough.
     fn net(&mut self, tap: &Tap, phase: i64) -> NetId {
         let drives_from = match tap.driver {
             Driver::Constant(value) => return self.machine.netlist.add_constant(value),

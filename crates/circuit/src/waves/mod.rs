@@ -36,7 +36,6 @@ pub struct WaveOptions {
     pub mapping: MapOptions,
 }
 
-/// The cells that a wave machine with beats of so many cycles may use.
 pub fn usable(library: &CellLibrary, beat: u32) -> CellLibrary {
     let is_usable = |kind: &crate::CellKind| kind.clock <= beat && (beat > 1 || !kind.glitches);
     let kinds = library.all();
@@ -59,11 +58,9 @@ pub fn balance(source: &Netlist, library: &CellLibrary, options: &WaveOptions) -
     WaveMachine::new(&step, &balanced.graph, &blocks, &balanced.phases, &cells, beat).ok_or(WaveError::NoBuffer)
 }
 
-/// The most gates of logic that is mapped in more than one way.
 const MANY_GATES: usize = 4_000;
 
-/// The logic in cells of the library: with few cells, and with short paths. Wide logic is mapped with few cells only,
-/// and with little effort, because its buffers take most of the time and of the robots.
+/// Wide logic is mapped with few cells only and little effort: its buffers take most of the time and of the robots.
 fn mappings(logic: &Network, cells: &CellLibrary, options: &MapOptions) -> Result<Vec<Network>, WaveError> {
     let stages = vec![0; logic.inputs];
     let map = |objective, effort| {

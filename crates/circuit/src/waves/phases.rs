@@ -28,7 +28,6 @@ pub struct Phases {
     pub period: u32,
     /// For each port, the beat before the one in which it is applied.
     pub inputs: Vec<i64>,
-    /// For each gate, its beat.
     pub gates: Vec<i64>,
     /// For each output, the beat after the one at whose end it is read.
     pub outputs: Vec<i64>,
@@ -54,7 +53,6 @@ pub struct Balancing<'g> {
     graph: &'g WaveGraph,
     nets: Vec<Net>,
     bounds: Vec<Bound>,
-    /// The number of phases, with those of the first input and the first output.
     phases: usize,
 }
 
@@ -115,8 +113,7 @@ impl<'g> Balancing<'g> {
         enough
     }
 
-    /// The phases with the fewest buffers that the work suffices for, for a step of that many beats, and their number;
-    /// `None` if the step is too short.
+    /// As few as the work suffices for, and their number; `None` if a step of that many beats is too short.
     pub fn fewest_buffers(&self, period: u32) -> Option<(Phases, usize)> {
         let mut phase = self.earliest(period)?;
         let most = (MOST_WORK / self.bounds.len().max(1)).max(10);
@@ -211,7 +208,6 @@ impl<'g> Balancing<'g> {
         })
     }
 
-    /// For how many beats a move stays as good as in its first.
     fn longest_move(&self, phase: &[i64], moved: &[bool], period: u32) -> i64 {
         let room = |bound: &Bound| {
             let least = phase[bound.from] + bound.beats + bound.steps * i64::from(period);
@@ -230,7 +226,6 @@ impl<'g> Balancing<'g> {
     }
 }
 
-/// Whether the causes of some phases form a loop.
 fn has_loop(cause: &[Option<usize>]) -> bool {
     let mut seen: Vec<Option<usize>> = vec![None; cause.len()];
     (0..cause.len()).any(|first| {

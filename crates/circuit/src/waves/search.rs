@@ -63,7 +63,6 @@ impl<'a> WaveCells<'a> {
     }
 }
 
-/// The best logic that a search finds from some mapped networks on.
 pub fn search(
     logic: &WaveLogic,
     starts: Vec<Network>,

@@ -10,12 +10,10 @@ use crate::registers::flip_flop;
 use crate::{NetId, Node};
 use nbc_base::model::Function;
 
-/// The robots of clock 1 in the shipped library.
 fn thin_cells() -> CellLibrary {
     CellLibrary::uniform(Function::all().filter(|f| ![Function::XOR, Function::XNOR].contains(f) && f.arity() > 0))
 }
 
-/// What the source shows of each row: the first before an edge, each later one after one.
 fn expected(step: &ClockStep, rows: &[Vec<bool>]) -> Vec<Vec<bool>> {
     let mut state: Vec<bool> = step.state.iter().map(|bit| bit.start).collect();
     let mut shown = Vec::new();
@@ -28,8 +26,7 @@ fn expected(step: &ClockStep, rows: &[Vec<bool>]) -> Vec<Vec<bool>> {
     shown
 }
 
-/// What the output ports show of each row in each thread, by thread, row and port, if every thread gets these rows of
-/// input bits: each cell shows in a beat its function of what its pins read.
+/// By thread, row and port, if every thread gets these rows of input bits.
 fn run(machine: &WaveMachine, rows: &[Vec<bool>]) -> Vec<Vec<Vec<bool>>> {
     let beat = machine.beat as usize;
     let netlist = &machine.netlist;
@@ -138,7 +135,6 @@ fn a_register_starts_as_its_cells_do_though_the_one_that_names_it_has_no_start_v
     assert!(started.iter().all(|&count| count > 10), "{started:?} start at 0 and 1");
 }
 
-/// A flip-flop whose latches start so; it stores when its clock rises, or when it falls.
 fn started(rises: bool, starts: [Option<bool>; 4]) -> Netlist {
     let mut netlist = Netlist::new("started");
     let [d, clock] = ["d", "clk"].map(|name| netlist.add_input(name));

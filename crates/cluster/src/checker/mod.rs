@@ -17,7 +17,6 @@ pub use plausible::is_plausible;
 
 /// The share of the time that is spent on further checks of workers that have passed their first.
 const SHARE: f64 = 0.02;
-/// Messages that are not answers have a line each up to this number, then fewer.
 const JUNK_LINES: u64 = 8;
 /// A worker is refused after wrong results of so many tasks. Anybody who can use the server can send one in its name.
 const MOST_WRONG: usize = 3;
@@ -27,9 +26,7 @@ pub struct Checker {
     log: Log,
     is_trusting: bool,
     workers: BTreeMap<String, Known>,
-    /// A worker whose results were used and that was wrong.
     unsound: Option<String>,
-    /// Messages that were not answers.
     junk: u64,
     checks: JoinSet<Check>,
     started: Instant,
@@ -39,9 +36,7 @@ pub struct Checker {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Known {
     standing: Standing,
-    /// Whether its results were used without doing the work here.
     is_used: bool,
-    /// The tasks of which a wrong result came in its name.
     wrong: BTreeSet<TaskKey>,
 }
 
@@ -49,11 +44,8 @@ struct Known {
 enum Standing {
     #[default]
     Unknown,
-    /// Its first result is being checked.
     New,
-    /// Its first result was right.
     Passed,
-    /// Its answers are ignored.
     Refused,
 }
 
@@ -102,7 +94,6 @@ impl Checker {
         }
     }
 
-    /// Does a task on another thread, to compare the claims of workers with its result.
     pub fn start(&mut self, key: TaskKey, task: Task, claims: Vec<(String, TaskResult)>) {
         let check = move || {
             let started = Instant::now();
@@ -112,7 +103,6 @@ impl Checker {
         self.checks.spawn_blocking_on(check, &self.handle);
     }
 
-    /// The next check that ends; `None` if there is none in progress.
     pub async fn next(&mut self) -> Option<Check> {
         let check = self.checks.join_next().await?.expect("tasks do not panic");
         self.spent += check.took;
@@ -129,12 +119,10 @@ impl Checker {
         self.is_trusting || self.standing(worker) == Standing::Passed
     }
 
-    /// Whether results have come from senders with this name.
     pub fn has_answered(&self, name: &str) -> bool {
         self.workers.iter().any(|(sender, known)| name_of(sender) == name && *known != Known::default())
     }
 
-    /// Remembers whose results were used without doing the work here.
     pub fn set_used(&mut self, workers: impl IntoIterator<Item = String>) {
         workers.into_iter().for_each(|worker| self.known(&worker).is_used = true);
     }
@@ -155,8 +143,7 @@ impl Checker {
         }
     }
 
-    /// Counts a wrong result of a task in the name of a worker. Its next result is checked here before others are used;
-    /// after some it is refused. Returns how many more are missing for that.
+    /// Returns how many more lead to its refusal. Its next result is checked here before others are used.
     pub fn count_wrong(&mut self, worker: &str, key: TaskKey, reason: &str) -> usize {
         let known = self.known(worker);
         if known.standing == Standing::Refused || !known.wrong.insert(key) {
@@ -176,20 +163,17 @@ impl Checker {
         0
     }
 
-    /// No longer ignores a name, of which a report was wrong.
     pub fn readmit(&mut self, name: &str) {
         if self.is_refused(name) {
             self.workers.remove(name);
         }
     }
 
-    /// The name of a worker whose results were used and that was wrong.
     pub fn unsound(&self) -> Option<&str> {
         self.unsound.as_deref()
     }
 
-    /// Counts a message that is not an answer. Anybody can send one in the name of a worker, so the worker is not
-    /// refused. After a few messages, only some are logged.
+    /// Anybody can send one in the name of a worker, so the worker is not refused. After a few, only some are logged.
     pub fn count_junk(&mut self, worker: &str) {
         self.junk += 1;
         if self.junk < JUNK_LINES || self.junk.is_power_of_two() {
@@ -207,7 +191,6 @@ impl Checker {
     }
 }
 
-/// The name of the worker that sent an answer: the first part of the sender.
 fn name_of(sender: &str) -> &str {
     sender.split(' ').next().unwrap_or_default()
 }

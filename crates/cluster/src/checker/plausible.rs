@@ -26,7 +26,6 @@ pub fn is_plausible(result: &TaskResult, task: &Task) -> bool {
     }
 }
 
-/// Whether the numbers agree with each other and none is NaN.
 fn is_possible(Measurement { displacement, behavior, character }: &Measurement) -> bool {
     let rates = [character.error_rate, character.glitch_rate];
     displacement.iter().all(|number| number.is_finite())
@@ -37,7 +36,6 @@ fn is_possible(Measurement { displacement, behavior, character }: &Measurement) 
         && character.settle.len() == transitions(behavior.stimuli())
 }
 
-/// The number of transitions between different patterns of that many stimuli.
 fn transitions(stimuli: usize) -> usize {
     let patterns = 1 << stimuli;
     patterns * (patterns - 1)
@@ -87,7 +85,6 @@ mod tests {
     use nbc_swarm::evolve::Search;
     use nbc_swarm::{Work, evaluate_tasks, measure};
 
-    /// Displacements of the opposite behavior.
     fn opposite(displacement: Displacements) -> Displacements {
         Displacements::under(2, |pattern| if displacement.at(pattern) > 0.0 { -1.0 } else { 1.0 })
     }

@@ -22,7 +22,6 @@ pub(crate) fn port(column: &Column, place: Span, body: &mut tree::BodySyntax) ->
     tree::Port { words, ..tree::Port::new(NameSyntax { text: column.name.clone(), span: place }, Some(width)) }
 }
 
-/// A call of another circuit with the tested circuit's ports: the reference of a test.
 pub(crate) fn reference(
     [tested, other]: [&NameSyntax; 2],
     own: PortLists<'_>,
@@ -40,7 +39,6 @@ pub(crate) fn reference(
     Ok(call(format!("{} as a reference", other.text), tested.span, own, (circuit, arguments), [inputs, outputs]))
 }
 
-/// For each port of the other circuit, the index of its partner.
 fn paired(own: &[Column], theirs: &[Column]) -> Result<Vec<usize>, Option<[Vec<String>; 2]>> {
     let has = |ports: &[Column], name: &str| ports.iter().any(|port| port.name == name);
     let alone = |ports: &[Column], others: &[Column]| -> Vec<String> {

@@ -14,7 +14,6 @@ use nbc_base::model::{
 };
 use nbc_base::source::Span;
 
-/// A word of an array, selected by a value and written by a register.
 pub(crate) struct WrittenWord {
     net: NetSlot,
     index: Index,
@@ -34,7 +33,6 @@ impl CircuitChecker<'_> {
         self.circuit.memories.iter().position(|memory| memory.net == net)
     }
 
-    /// Whether the index is a value of nets rather than an integer.
     fn is_value(&self, index: &Index) -> bool {
         match index.kind {
             IndexKind::Value(_) => true,
@@ -73,7 +71,6 @@ impl CircuitChecker<'_> {
         }
     }
 
-    /// Bits of a word, if there are any in brackets.
     fn second_bits(&mut self, second: Option<&Index>) -> Option<Option<(SizeId, SizeId)>> {
         second.map_or(Some(None), |second| self.bits_of(second).map(Some))
     }
@@ -202,8 +199,7 @@ impl CircuitChecker<'_> {
         Some(WrittenWord { net, index, span: target.span })
     }
 
-    /// `words[address] = register(d, clk, enable: e)`: each word is a register that takes the value if the address is
-    /// its own.
+    /// `words[address] = register(d, clk, enable: e)`: each word is a register that is enabled at its own address.
     pub(crate) fn write_word(&mut self, written: WrittenWord, value: ExpressionSyntaxId) -> Option<Statement> {
         let first = self.circuit.nets.len() as u32;
         let array = self.circuit.nets[written.net.0 as usize].name.clone();

@@ -69,7 +69,6 @@ pub(crate) fn input_cell(word: &NameSyntax, column: &Column) -> Result<RowCell, 
     cell(word, column)
 }
 
-/// Writes the `x` and `z` of other languages as `-`.
 fn with_any_bits(word: &str) -> Option<String> {
     let any = |c: char| matches!(c, 'x' | 'X' | 'z' | 'Z');
     let is_pattern = word.contains(any) && word.chars().all(|c| matches!(c, '0' | '1' | '-') || any(c));
@@ -85,7 +84,6 @@ fn wrong_width(word: &NameSyntax, found: &str, column: &Column) -> Diagnostic {
     wording::value_width(found, &column.name, column.width, [meant, number], word.span)
 }
 
-/// How a value of another language is written for a column of this width.
 fn meant(word: &str, width: usize) -> Option<String> {
     if let Some(bit) = constant::truth(word).filter(|_| width == 1) {
         return Some(u8::from(bit).to_string());

@@ -33,7 +33,6 @@ pub(crate) struct Header {
     /// For each input, whether a call may leave it out.
     pub(crate) optional: Vec<bool>,
     pub(crate) outputs: Vec<String>,
-    /// Those of the parameters, and those of the ports in order.
     pub(crate) places: [Vec<Span>; 2],
 }
 
@@ -82,15 +81,12 @@ pub(crate) struct CircuitChecker<'a> {
     pub(crate) headers: &'a Headers,
     pub(crate) home: Home,
     pub(crate) is_environment: bool,
-    /// The clock of `before`.
     pub(crate) steps: Option<NetSlot>,
     pub(crate) circuit: Circuit,
     pub(crate) scopes: Vec<BTreeMap<&'a str, Binding>>,
     pub(crate) used: Vec<bool>,
     pub(crate) driven: Vec<bool>,
-    /// The values of named integers whose statements come later, by their slots.
     integers: BTreeMap<u32, SizeId>,
-    /// The addresses of the memories that the statement reads, each with its value.
     pub(crate) reads: Vec<(NetSlot, ExpressionId)>,
     pub(crate) calls: Vec<(CircuitId, Span)>,
     pub(crate) diagnostics: Vec<Diagnostic>,
@@ -110,7 +106,6 @@ pub(crate) fn monitor(source: &tree::CircuitSyntax, declared: Vocabulary<'_>, he
     circuit(source, Home::Own, declared, headers, Some(clock))
 }
 
-/// `steps` is the clock of `before`.
 pub(crate) fn circuit(
     source: &tree::CircuitSyntax,
     home: Home,
@@ -449,7 +444,6 @@ impl<'a> CircuitChecker<'a> {
         }
     }
 
-    /// An integer or a member of an enumeration.
     pub(crate) fn named_constant(&mut self, name: &tree::NameSyntax) -> Option<ExpressionKind> {
         let declared = self.declared;
         match self.lookup(&name.text) {

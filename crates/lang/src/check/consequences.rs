@@ -17,7 +17,6 @@ pub(crate) fn forget(diagnostics: &mut Vec<Diagnostic>, sources: &Sources, loade
         .filter(|part| part.span == part.declaration)
         .filter_map(|part| words(text(sources, part.span)).nth(1))
         .collect();
-    // The words of each declaration that has lost a part.
     let mut mentioned: Vec<(Span, BTreeSet<&str>)> = Vec::new();
     for part in broken {
         let own = words(text(sources, part.span));

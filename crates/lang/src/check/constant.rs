@@ -57,7 +57,6 @@ pub(crate) fn integer<T: TryFrom<u128>>(word: &str) -> Option<T> {
     T::try_from(unsized_number(word)?).ok()
 }
 
-/// A number without a width: `12`, `0x1f`, `0b101`.
 pub(crate) fn unsized_number(word: &str) -> Option<u128> {
     let (digits, base) = match word.as_bytes().get(1) {
         Some(b'x' | b'X') => (word.get(2..)?, 16),

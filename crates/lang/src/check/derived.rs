@@ -10,13 +10,11 @@ use nbc_base::diag::Diagnostic;
 pub(crate) enum CheckState<T> {
     /// Not checked yet. A record that names it now closes a circle.
     Open,
-    /// Its errors are already reported.
     Faulty,
     Sound(Box<T>),
 }
 
-/// The positions of records, each after the one named by its `from`, or else after that of the `usual` name, as far as
-/// such an order exists. What the usual one derives from comes before it.
+/// Positions of records, each after the one that its `from` names, else after the `usual` one, as far as possible.
 pub(crate) fn order(
     sources: &[(Home, &RecordDeclaration)],
     names: &NameTable,

@@ -87,7 +87,6 @@ fn values(members: &[MemberSyntax], faults: &mut Vec<Diagnostic>) -> Option<(u32
     (faults.len() == before).then(|| (width, values.into_iter().map(|(value, _)| value).collect()))
 }
 
-/// It may name earlier integers and members of enumerations.
 pub(crate) fn integer(
     source: &LetSyntax,
     home: Home,

@@ -43,7 +43,6 @@ pub(crate) struct NamedEvolution {
 }
 
 impl NamedEvolution {
-    /// Renumbers the stimuli of its materials from 0.
     pub(crate) fn into_evolution(self) -> Evolution {
         let Self { evolution, stimuli, .. } = self;
         let own = |material: &Material| match material.kind {
@@ -226,7 +225,6 @@ fn behaviors(fields: &mut Fields<'_>, base: Vec<Behavior>, objective: SearchObje
     if is_of_gates(objective) { behaviors } else { Vec::new() }
 }
 
-/// What a run follows where the paper's text and its code differ.
 fn rules(fields: &mut Fields<'_>, base: Rules, genome: Genome) -> Rules {
     let whole = [("paper", Rules::PAPER), ("code", Rules::CODE)].into_iter();
     let parts = Matter::WORDS.into_iter().map(|(word, matter)| (word, Rules::from(matter)));
@@ -322,7 +320,6 @@ fn palette(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<Arc<Pal
     Ok(Arc::new(Palette::new(materials)))
 }
 
-/// The stimuli of a schedule, ascending, and the schedule in terms of them; one of images stays as it is.
 fn schedule(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<(Vec<usize>, Schedule), Diagnostic> {
     let name = fields::name(value, "schedule")?;
     let Some(found) = known.names.schedules.resolve(name, home)?.map(|at| &known.program.schedules[at]) else {

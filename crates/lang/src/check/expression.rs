@@ -14,7 +14,6 @@ use nbc_base::model::{
 };
 use nbc_base::source::Span;
 
-/// The value of the step before, in properties.
 pub(crate) const BEFORE: &str = "before";
 
 const OPERATORS: [&str; 7] = ["and", "or", "xor", "nand", "nor", "xnor", "not"];
@@ -54,7 +53,6 @@ impl<'a> CircuitChecker<'a> {
         done.pop().expect("an expression has a value")
     }
 
-    /// Several targets need a call of a circuit with as many outputs. The circuit may be unknown.
     pub(crate) fn value_count(
         &self,
         root: tree::ExpressionSyntaxId,
@@ -171,7 +169,6 @@ impl<'a> CircuitChecker<'a> {
         ExpressionKind::Call { circuit, arguments, operands: operands.into_iter().map(Some).collect() }
     }
 
-    /// An operation on integers is one itself.
     fn folded(&mut self, infix: Infix, operands: &[ExpressionId]) -> Option<ExpressionKind> {
         let operator = match infix {
             Infix::Add => SizeOperator::Add,
@@ -192,7 +189,6 @@ impl<'a> CircuitChecker<'a> {
         Some(ExpressionKind::Unsized(FreeNumber::Size(size)))
     }
 
-    /// Replaces a number that has become part of an integer.
     fn forget(&mut self, number: ExpressionId) {
         self.circuit.expressions[number.0 as usize].kind = ExpressionKind::Bits(vec![false]);
     }

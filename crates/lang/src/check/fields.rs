@@ -7,7 +7,6 @@ use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::source::Span;
 
 pub(crate) struct Fields<'a> {
-    /// How messages call the record.
     what: String,
     rules: &'static [RecordField],
     place: Span,
@@ -41,7 +40,6 @@ impl<'a> Fields<'a> {
         self.is_vague = true;
     }
 
-    /// Reads one word of a set and notes it as a fact.
     pub(crate) fn choose<T: Copy + PartialEq>(
         &mut self,
         field: &'static str,
@@ -76,7 +74,6 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Reads a list of at least one entry; every invalid entry is reported.
     pub(crate) fn read_list<T>(
         &mut self,
         field: &'static str,
@@ -147,7 +144,6 @@ pub(crate) fn word<'v>(value: &'v ValueSyntax, expected: &str) -> Result<&'v Nam
     single(value).ok_or_else(|| wording::wrong_kind(expected, value.span))
 }
 
-/// The name of a declaration of this kind.
 pub(crate) fn name<'v>(value: &'v ValueSyntax, kind: &str) -> Result<&'v NameSyntax, Diagnostic> {
     single(value).ok_or_else(|| wording::wrong_kind(&wording::name_of(kind), value.span))
 }
@@ -159,7 +155,6 @@ fn single(value: &ValueSyntax) -> Option<&NameSyntax> {
     }
 }
 
-/// One word of a set.
 pub(crate) fn choice<T: Copy>(value: &ValueSyntax, choices: &[(&'static str, T)]) -> Result<T, Diagnostic> {
     let found = single(value).and_then(|name| choices.iter().find(|(word, _)| *word == name.text));
     found.map(|(_, choice)| *choice).ok_or_else(|| {

@@ -104,7 +104,6 @@ fn labels(images: &[LabeledImage]) -> Vec<String> {
     labels
 }
 
-/// The number in the file that stands for 1.
 fn white(value: &ValueSyntax) -> Result<f64, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(given) => quantity::within(quantity::bare(given)?, 0.001..=1e6, value.span),

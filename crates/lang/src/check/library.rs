@@ -26,7 +26,6 @@ pub(crate) fn library(
     Some(LibrarySource { name: source.name.text.clone(), span: source.name.span, from: from?, behaviors, without })
 }
 
-/// The errors of folders without robots.
 pub(crate) fn folders(world: &dyn SourceWorld, sources: &Sources, trees: &[(Home, Tree)]) -> Vec<Diagnostic> {
     let declarations = trees.iter().flat_map(|(_, tree)| &tree.declarations);
     let records = declarations.filter_map(|declaration| match &declaration.kind {

@@ -13,7 +13,6 @@ use nbc_base::source::{FileError, FileId, ForeignCircuit, ProofOrigin, SourceWor
 use nbc_circuit::formats::CircuitSource;
 use nbc_circuit::rows::RowFormat;
 
-/// The declarations available to every program: the paper's setting and the standard circuits.
 pub const PRELUDE: [(&str, &str); 2] = [
     ("prelude.nb", include_str!("../../library/prelude.nb")),
     ("standard.nb", include_str!("../../library/standard.nb")),
@@ -41,7 +40,6 @@ impl UsedKind {
 pub(crate) struct Loaded {
     pub(crate) trees: Vec<(Home, Tree)>,
     pub(crate) faults: Vec<Diagnostic>,
-    /// Files with a `use` that cannot be read.
     pub(crate) incomplete: BTreeSet<FileId>,
     pub(crate) foreign: Vec<ForeignCircuit>,
     /// By the places of their paths.
@@ -70,7 +68,6 @@ struct Loader<'a> {
     loaded: Loaded,
     /// Outermost first: identity and path as written.
     open: Vec<(String, String)>,
-    /// Identities.
     done: Vec<String>,
 }
 
@@ -159,7 +156,6 @@ impl Loader<'_> {
         self.finish(identity, from, result);
     }
 
-    /// One file, or those of a folder.
     fn design_files(&self, name: &str, identity: &str) -> Vec<String> {
         let is_verilog = |path| UsedKind::of_path(path) == Some(UsedKind::Circuit(CircuitSource::Verilog));
         if is_verilog(name) && is_verilog(identity) { vec![name.to_owned()] } else { self.verilog_of(name) }
@@ -285,7 +281,6 @@ impl Loader<'_> {
     }
 }
 
-/// Refuses a file that would be one too many, or too large with all others.
 fn permit(sources: &Sources, text: &str, at: Span) -> Result<(), Vec<Diagnostic>> {
     let bytes = sources.iter().map(|file| file.text.len()).sum::<usize>() + text.len();
     let files = sources.iter().count() - PRELUDE.len() + 1;
@@ -303,8 +298,7 @@ pub fn beside(file: &str, path: &str) -> String {
     }
 }
 
-/// A path without `.`, and without `..` where that does not depend on links. Paths of a [`SourceWorld`] have slashes on
-/// every system, unlike those that `path-clean` cleans.
+/// Without `.`, and without `..` where that does not depend on links; `path-clean` has other slashes on Windows.
 fn normal(path: &str) -> String {
     let mut parts: Vec<&str> = Vec::new();
     for part in path.split('/') {

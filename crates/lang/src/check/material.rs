@@ -31,7 +31,6 @@ pub(crate) fn material(
     let kinds = [("rigid", Kind::Rigid), ("soft", Kind::Soft), ("actuator", Kind::Actuator), ("sensor", Kind::Sensor)];
     let kind = fields.need("kind", "kind: soft", |value| fields::choice(value, &kinds));
     let Some(kind) = kind else {
-        // The allowed fields depend on the kind.
         faults.extend(fields.abandon());
         return None;
     };

@@ -19,12 +19,10 @@ pub(crate) enum Home {
     Own,
 }
 
-/// Names of one kind with their meaning, mostly a position in the program.
 pub(crate) struct NameTable<T = usize> {
     pub(crate) kind: NameKind,
     prelude: BTreeMap<String, Entry<T>>,
     files: BTreeMap<String, Entry<T>>,
-    /// The unknown names looked up so far.
     unknown: Cell<usize>,
     uses: RefCell<Vec<NameUse>>,
 }
@@ -65,7 +63,6 @@ impl<T: Copy> NameTable<T> {
         self.resolve_beside(name, home, &[])
     }
 
-    /// As [`NameTable::resolve`], where words of the language may have been meant too.
     pub(crate) fn resolve_beside(&self, name: &NameSyntax, home: Home, words: &[&str]) -> Result<T, Diagnostic> {
         let entry = self
             .entry(&name.text, home)
@@ -96,7 +93,6 @@ impl<T: Copy> NameTable<T> {
         self.uses.take()
     }
 
-    /// For the first unknown names only.
     fn suggestion(&self, name: &str, words: &[&str]) -> Suggestion {
         self.unknown.set(self.unknown.get() + 1);
         let known = words.iter().copied().chain(self.all());
@@ -113,7 +109,6 @@ impl<T: Copy> NameTable<T> {
 }
 
 impl NameTable<Option<usize>> {
-    /// Declares a name and adds what it stands for to a list, unless that has errors. Returns the error of the name.
     pub(crate) fn add<T>(
         &mut self,
         name: &NameSyntax,

@@ -11,7 +11,6 @@ use nbc_base::source::Span;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Measure {
-    /// Cycles and seconds are converted.
     Steps,
     Cycles,
     Degrees,

@@ -3,11 +3,9 @@
 
 use crate::check::uses::NameKind;
 
-/// What a record is, or has: a field and its word, as `("objective", "gate")`; or a field that changes something, as
-/// `("vary", "")`.
+/// A field of the record and its word, `("objective", "gate")`, or a field that changes something, `("vary", "")`.
 pub(crate) type Fact = (&'static str, &'static str);
 
-/// A field of a kind of record.
 #[derive(Clone, Copy, Debug)]
 pub struct RecordField {
     pub name: &'static str,
@@ -16,18 +14,13 @@ pub struct RecordField {
     needs: &'static [Fact],
 }
 
-/// What a field holds, as far as editors complete it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Holds {
-    /// A number, a text or another value that is not completed.
     Value,
     Word(&'static [&'static str]),
     Name(NameKind),
-    /// A name of this kind, or one of the words.
     NameOr(NameKind, &'static [&'static str]),
-    /// A function or a behavior.
     Function,
-    /// Fields of a record of this kind.
     Record(&'static str),
 }
 
@@ -36,7 +29,6 @@ use Holds::{Function, Name, NameOr, Record, Value, Word};
 const ALWAYS: &[Fact] = &[];
 const ACTUATOR: &[Fact] = &[("kind", "actuator")];
 const SENSOR: &[Fact] = &[("kind", "sensor")];
-/// The noise that is drawn.
 const DRAWN: &[Fact] = &[("start", ""), ("missed", ""), ("dead", "")];
 const HOLDS: &[Fact] = &[("registers", "master_slave"), ("registers", "mux")];
 const WAVES: &[Fact] = &[("registers", "waves")];
@@ -44,7 +36,6 @@ const NETWORKS: &[Fact] = &[("genome", "cppn")];
 const VOXELS: &[Fact] = &[("genome", "voxels")];
 const DISTANCE: &[Fact] = &[("objective", "distance")];
 const IMAGES: &[Fact] = &[("objective", "images")];
-/// What stimuli are exchanged and inverted for.
 const STIMULI: &[Fact] = &[("objective", "distance"), ("objective", "gate"), ("objective", "wave")];
 const GATES: &[Fact] = &[("objective", "gate"), ("objective", "wave")];
 const VARIED: &[Fact] = &[("vary", "")];
@@ -174,18 +165,15 @@ const fn field(name: &'static str, holds: Holds, needs: &'static [Fact]) -> Reco
     RecordField { name, holds, needs }
 }
 
-/// The fields of a kind of record.
 pub fn record_fields(kind: &str) -> &'static [RecordField] {
     RECORDS.iter().find(|(known, _)| *known == kind).map_or(&[], |(_, fields)| fields)
 }
 
 impl RecordField {
-    /// The facts that would give the field an effect, if none of them holds.
     pub(crate) fn lacks(&self, facts: &[Fact]) -> Option<&'static [Fact]> {
         (!self.needs.is_empty() && !self.needs.iter().any(|fact| facts.contains(fact))).then_some(self.needs)
     }
 
-    /// Whether messages list it: fields of another kind of material are not fields of this one.
     pub(crate) fn is_listed(&self, facts: &[Fact]) -> bool {
         self.needs.iter().all(|(field, _)| *field != "kind") || self.lacks(facts).is_none()
     }
@@ -201,7 +189,6 @@ mod tests {
     use nbc_base::model::Program;
     use nbc_base::source::{MemoryWorld, Sources};
 
-    /// What the programs of this test refer to.
     const CONTEXT: &str = "\
 circuit f(a, clk) -> (q) { q = register(a, clk) }
 circuit g(a, clk) -> (q) { q = not register(a, clk) }
@@ -217,7 +204,6 @@ images right { stimulus: spot, from: \"spots.csv\", label: 1 }
 schedule spots(spot) { left for 9 steps right for 9 steps }
 ";
 
-    /// A file of images that the programs name.
     const SPOTS: &str = "1,0,0\n0,1,1\n0,0.5,1\n";
 
     fn values(record: &str, field: &str) -> [&'static str; 2] {
@@ -263,7 +249,6 @@ schedule spots(spot) { left for 9 steps right for 9 steps }
         }
     }
 
-    /// A program with a record that has a field of that value, with the other fields that it needs.
     fn program(record: &str, (field, value): (&str, &str), fact: Option<Fact>) -> (Program, Vec<Diagnostic>) {
         let fact = fact.filter(|(named, _)| *named != field).map(|(named, word)| match word {
             "" => format!("{named}: {}", values(record, named)[0]),

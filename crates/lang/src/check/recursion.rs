@@ -11,8 +11,7 @@ struct Open {
     next: usize,
 }
 
-/// Also returns for each circuit whether it and everything it contains are valid. It does not recurse, because a chain
-/// of circuits may be long.
+/// Also returns which circuits are valid with all that they contain. No recursion: a chain of circuits may be long.
 pub(crate) fn look(
     calls: &[Vec<(CircuitId, Span)>],
     own_sound: &[bool],

@@ -34,7 +34,6 @@ impl CircuitChecker<'_> {
         self.push_size(SizeKind::Literal(1), span)
     }
 
-    /// Copies an integer so that it can be part of another one.
     pub(crate) fn copy_of_size(&mut self, size: SizeId) -> SizeId {
         let first = Size::first_part(&self.circuit.sizes, size);
         let shift = self.circuit.sizes.len() as u32 - first.0;
@@ -95,7 +94,6 @@ impl CircuitChecker<'_> {
     }
 }
 
-/// The value of the last size; names have the values that `known` gives.
 pub(crate) fn value(
     sizes: &[tree::SizeSyntax],
     known: impl Fn(&str, Span) -> Option<Result<i128, Diagnostic>>,

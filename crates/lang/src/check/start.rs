@@ -34,7 +34,6 @@ impl CircuitChecker<'_> {
         }
     }
 
-    /// `None` unless it is a single word.
     fn size_text(&self, size: SizeSyntaxId) -> Option<&str> {
         match &self.body.sizes[size.0 as usize].kind {
             SizeSyntaxKind::Literal(text) | SizeSyntaxKind::Name(text) => Some(text),
@@ -43,7 +42,6 @@ impl CircuitChecker<'_> {
     }
 }
 
-/// `None` if the call gives the parameter already.
 fn argument_edit(
     name: &tree::NameSyntax,
     header: &Header,

@@ -34,7 +34,6 @@ impl CircuitChecker<'_> {
             }
         }
         if !table.is_in_bits() {
-            // A single digit beside numbers is one, too.
             for row in &mut table.rows {
                 if let Some(value) = row.pattern.digit() {
                     row.pattern = TablePattern::Number(value);

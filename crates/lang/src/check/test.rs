@@ -102,7 +102,6 @@ pub(crate) fn file_rows(
     Ok(rows.into_iter().enumerate().map(row).collect())
 }
 
-/// The most bits of a value that is shown in decimal.
 const FEW_BITS: usize = 16;
 
 impl Ports<'_> {

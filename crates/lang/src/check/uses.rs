@@ -15,11 +15,8 @@ pub enum NameKind {
     Circuit,
     Enumeration,
     Member,
-    /// A file that memories begin with.
     File,
-    /// A port or another net.
     Net,
-    /// A parameter of a circuit, the variable of a loop, or an integer with a name.
     Number,
 }
 
@@ -48,7 +45,6 @@ impl NameKind {
 pub struct NameUse {
     /// A declaration's name refers to itself.
     pub place: Span,
-    /// The name in its declaration.
     pub declared: Span,
     pub kind: NameKind,
 }
@@ -73,7 +69,6 @@ impl NameUses {
         self.list[..end].last().filter(covers).copied()
     }
 
-    /// The uses of a declaration in order, its own name included.
     pub fn of(&self, declared: Span) -> impl Iterator<Item = NameUse> + '_ {
         self.list.iter().copied().filter(move |found| found.declared == declared)
     }

@@ -9,7 +9,6 @@ use nbc_base::source::Span;
 #[derive(Clone, Copy)]
 pub(crate) struct Vocabulary<'a> {
     pub(crate) names: &'a Names,
-    /// The enumerations of the program.
     pub(crate) all: &'a [Enumeration],
 }
 
@@ -23,7 +22,6 @@ impl<'a> Vocabulary<'a> {
         Some((enumeration, &self.all[enumeration].members[member]))
     }
 
-    /// The integer of a `let` or the value of a member; `None` if there is no such name.
     pub(crate) fn integer(&self, name: &str, place: Span, home: Home) -> Option<Result<i128, Diagnostic>> {
         if let Some((_, member)) = self.member(name, home) {
             self.names.members.refer_to(name, place, home);

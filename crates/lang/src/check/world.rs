@@ -28,7 +28,7 @@ impl Worlds<'_> {
         if let Some(CheckState::Sound(named)) = declared { NamedWorld::clone(named) } else { NamedWorld::default() }
     }
 
-    /// The paper's world if the named one has errors, which are already reported.
+    /// The paper's world if the named one has errors.
     pub(crate) fn named(self, name: &NameSyntax, home: Home) -> Result<NamedWorld, Diagnostic> {
         let found = &self.checked[self.names.resolve(name, home)?];
         Ok(if let CheckState::Sound(named) = found { NamedWorld::clone(named) } else { NamedWorld::default() })

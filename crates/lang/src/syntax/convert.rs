@@ -21,7 +21,6 @@ pub(crate) struct Converter<'a> {
     /// The text of the declaration; `comments` are those of the whole file.
     pub(crate) source: &'a str,
     pub(crate) comments: &'a [Range<usize>],
-    /// Where `source` begins in the file.
     pub(crate) offset: usize,
     pub(crate) errors: Vec<Diagnostic>,
     /// Statements whose meaning is unknown.
@@ -167,7 +166,6 @@ impl<'a> Converter<'a> {
     }
 }
 
-/// The inner pairs without comments and keywords.
 pub(crate) fn parts(pair: Pair<Rule>) -> impl Iterator<Item = Pair<Rule>> {
     solid(pair.into_inner())
 }

@@ -88,7 +88,6 @@ impl Converter<'_> {
         Port { words: sizes.pop(), members, ..Port::new(name, width) }
     }
 
-    /// The number of bits in brackets, which may be a range such as `[7:0]`, and its text.
     fn width_of_range(&mut self, range: Pair<Rule>, arena: &mut Arena) -> (SizeSyntaxId, String) {
         let span = self.span(&range);
         let mut ends = parts(range).map(|end| (end.as_str().trim().to_owned(), end));

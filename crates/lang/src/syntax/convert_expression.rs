@@ -92,7 +92,6 @@ impl Converter<'_> {
         }
     }
 
-    /// A word in the place of a sign, with spaces around it if the text has none.
     fn apart(&self, sign: Span, word: &str) -> String {
         let space = |character: Option<char>| if character.is_some_and(char::is_whitespace) { "" } else { " " };
         let (before, after) =

@@ -47,7 +47,6 @@ impl Converter<'_> {
         SpellSyntax { cells: cells.iter().map(|cell| self.name(cell)).collect(), length, span }
     }
 
-    /// The name in the next part, if that follows this rule.
     pub(super) fn named<'p>(
         &self,
         rule: Rule,

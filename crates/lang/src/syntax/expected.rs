@@ -43,7 +43,6 @@ pub(crate) fn diagnostic(part: &PartPlace<'_>, at: usize, error: &Error<Rule>) -
     }
 }
 
-/// A long word is cut.
 fn found(rest: &str) -> &str {
     let first = rest.chars().next();
     let end = match first {

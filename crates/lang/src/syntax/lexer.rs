@@ -84,8 +84,7 @@ pub(crate) fn open_brackets(text: &str) -> Vec<usize> {
     open
 }
 
-/// Opens a bracket, or closes the innermost one if it fits; a closing brace also closes what is open inside it. Returns
-/// whether a closing bracket has no opening one.
+/// A closing brace also closes what is open inside it. Returns whether a closing bracket has no opening one.
 pub(crate) fn bracket<'t, T>(open: &mut Vec<T>, sign: &str, at: T, text: impl Fn(&T) -> &'t str) -> bool {
     let opening = match sign {
         "(" | "[" | "{" => {

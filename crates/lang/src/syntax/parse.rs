@@ -46,7 +46,6 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
     parsed
 }
 
-/// Parses a text such as `adder[8]` on a command line.
 pub fn parse_instance(sources: &Sources, file: FileId) -> Result<InstanceSyntax, Diagnostic> {
     let text = sources.file(file).text.as_str();
     let mut converter = Converter::new(file, text, &[], 0);
@@ -121,7 +120,6 @@ fn parse_piece(text: &str, file: FileId, split: &Split, piece: &SourcePiece, par
     parsed.tree.declarations.extend(tree);
 }
 
-/// Replaces a part by spaces, so that the rest stays in its place.
 fn blank(text: &mut String, range: Range<usize>) {
     let space = |byte: u8| if matches!(byte, b'\n' | b'\r') { char::from(byte) } else { ' ' };
     let blanks: String = text[range.clone()].bytes().map(space).collect();

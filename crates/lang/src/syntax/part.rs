@@ -31,7 +31,6 @@ impl PartKind {
 #[derive(Clone, Copy)]
 pub(crate) struct PartPlace<'a> {
     pub(crate) file: FileId,
-    /// The text of the declaration, and its place in the file.
     pub(crate) source: &'a str,
     pub(crate) offset: usize,
     pub(crate) kind: PartKind,

@@ -52,7 +52,6 @@ struct Recovery<'a> {
     found: Recovered,
 }
 
-/// The tokens between the braces.
 struct PartBlock {
     holds: PartKind,
     tokens: Range<usize>,
@@ -110,8 +109,7 @@ impl Recovery<'_> {
         keep
     }
 
-    /// Whether the declaration follows the grammar into this part, so that the one before it has no error. Up to its
-    /// first `=` or `:`, a part may read like the end of an incomplete one before it.
+    /// Up to its first `=` or `:`, a part may read like the end of an incomplete one before it.
     fn is_passed(&self, part: &Range<usize>) -> bool {
         let sign = part.clone().find(|&at| matches!(self.word(at), "=" | ":"));
         let second = (part.start + 1).min(part.end - 1);
@@ -133,7 +131,6 @@ impl Recovery<'_> {
                 let end = self.closing(at, tokens.end);
                 let mut start = at + 1;
                 if kind == PartKind::Declaration && holds == PartKind::Row {
-                    // The header belongs to the test.
                     start += 1;
                     while start < end && !self.tokens[start].is_first {
                         start += 1;
@@ -168,7 +165,6 @@ impl Recovery<'_> {
         }
     }
 
-    /// The braces that hold the rows of a `table` or `match`.
     fn tables(&self, part: &Range<usize>) -> Vec<usize> {
         let mut tables = Vec::new();
         // Each open bracket, with the heads of tables in it that have no rows so far.

@@ -57,7 +57,6 @@ pub(crate) fn look(part: &PartPlace<'_>, at: usize, found: &str, error: &Error<R
     LOOKS.iter().find_map(|look| look(&place))
 }
 
-/// The last word of a text, after the text before it.
 fn last_word(text: &str) -> (&str, &str) {
     text.split_at(text.trim_end_matches(is_word).len())
 }
@@ -101,7 +100,6 @@ impl<'a> SlipPlace<'a> {
         matches!(self.kind, PartKind::Statement | PartKind::TableRow | PartKind::Property)
     }
 
-    /// The word before the place, its start, and the text before it on its line.
     fn word_before(&self) -> Option<(&'a str, usize, &'a str)> {
         let (rest, word) = last_word(self.before().trim_end());
         let line = rest.rsplit(['\n', '\r']).next().unwrap_or_default();
@@ -217,7 +215,6 @@ fn space_before_operands(place: &SlipPlace<'_>) -> Option<Diagnostic> {
     Some(wording::space_before_operands(name, brief(&place.text[open..close]), span))
 }
 
-/// The offset of the bracket that a closing bracket after this text closes.
 fn opening(inside: &str) -> Option<usize> {
     let mut depth = 0;
     inside.bytes().enumerate().rev().find_map(|(at, byte)| {

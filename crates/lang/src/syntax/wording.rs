@@ -4,10 +4,8 @@ use crate::syntax::split::KEYWORDS;
 use nbc_base::diag::{Code, Diagnostic, Fix, Suggestion, suggest};
 use nbc_base::source::Span;
 
-/// How to keep a text short.
 const REPEAT: &str = "use `for` and circuits for parts that repeat";
 
-/// How to keep expressions flat.
 const NAME_PARTS: &str = "name inner parts: `t = …`";
 
 pub(crate) fn large_file(bytes: usize, most: u64, at: Span) -> Diagnostic {
@@ -26,7 +24,6 @@ pub(crate) fn deep_declaration(depth: usize, most: u64, at: Span) -> Diagnostic 
     Diagnostic::new(Code::Nesting, format!("brackets are nested {depth} levels deep"), at, label).with_help(NAME_PARTS)
 }
 
-/// The parser's own limit.
 pub(crate) fn deep_text(at: Span) -> Diagnostic {
     Diagnostic::new(Code::Nesting, "text is nested too deeply", at, "at this point").with_help(NAME_PARTS)
 }
@@ -78,7 +75,6 @@ pub(crate) fn unclosed_bracket(in_declaration: bool, at: Span) -> Diagnostic {
     Diagnostic::new(Code::Syntax, "unclosed bracket", at, label).with_help(help)
 }
 
-/// Two operators without an order of precedence.
 pub(crate) fn ambiguous(operators: [&str; 2], readings: [String; 2], first: Span, at: Span) -> Diagnostic {
     let message = format!("`{}` and `{}` side by side can be read in two ways", operators[0], operators[1]);
     Diagnostic::new(Code::Ambiguous, message, at, "or this one first?")
@@ -122,7 +118,6 @@ pub(crate) fn net_keyword(word: &str, nets: &str, whole: Span, at: Span) -> Diag
         .with_fix(Fix::replace(whole, format!("net {nets}")))
 }
 
-/// `init` where a net is declared.
 pub(crate) fn start_of_net(net: &str, at: Span) -> Diagnostic {
     unexpected("init", "expected `,` or a new line", at)
         .with_help(format!("write the start value where the net is driven: `{net} init 0 = …`"))
@@ -145,7 +140,6 @@ pub(crate) fn if_block(choices: &[String], whole: Span, at: Span) -> Diagnostic 
         .with_fix((!choices.is_empty()).then(|| Fix::replace(whole, choices.join("\n    "))))
 }
 
-/// A choice whose first value is in braces.
 pub(crate) fn missing_then(at: Span) -> Diagnostic {
     unexpected("{", "expected `then`", at).with_help("write `if s then a else b`").with_fix(Fix::insert(at, "then "))
 }
@@ -182,7 +176,6 @@ pub(crate) fn colon_in_slice(net: &str, slice: &str, index: Span, at: Span) -> D
         .with_fix(Fix::replace(index, slice))
 }
 
-/// `[7:0]` after a port's name.
 pub(crate) fn range_of_port(port: &str, width: &str, at: Span) -> Diagnostic {
     unexpected(":", "expected a number of bits", at)
         .with_help(format!("write the number of bits: `{port}[{width}]`"))
@@ -223,7 +216,6 @@ pub(crate) fn width_of_constant(width: &str, digits: &str, zero: Option<Span>, a
     }
 }
 
-/// Nets in braces before `=`.
 pub(crate) fn nets_in_braces(nets: &str, bits: &[String], at: Span) -> Diagnostic {
     let bits = suggest::alternatives(bits, "and");
     unexpected("{", "expected a net, or nets in parentheses, before `=`", at).with_help(format!(
@@ -291,17 +283,14 @@ pub(crate) fn statement_keyword(word: &str, whole: Span, at: Span) -> Diagnostic
         .with_fix(Fix::remove(whole, &format!("`{word}`")))
 }
 
-/// `<=`, `:=` or `:` for `=`.
 pub(crate) fn drive_sign(sign: &str, at: Span) -> Diagnostic {
     unexpected(sign, "expected `=`", at).with_help("drive a net with `=`").with_fix(Fix::replace(at, "="))
 }
 
-/// `=` for `:` in a record.
 pub(crate) fn field_sign(field: &str, at: Span) -> Diagnostic {
     unexpected("=", "expected `:`", at).with_help(format!("write `{field}: …`")).with_fix(Fix::replace(at, ":"))
 }
 
-/// `~` or `!` for `not`.
 pub(crate) fn not_sign(sign: &str, at: Span) -> Diagnostic {
     unexpected(sign, "expected `not`", at).with_help("write `not`").with_fix(Fix::replace(at, "not "))
 }
@@ -333,7 +322,6 @@ pub(crate) fn value_for_parameter(at: Span) -> Diagnostic {
     unexpected("[", "expected an integer", at).with_help(help)
 }
 
-/// The replacement of a word that begins a statement in other languages.
 fn help_for_statement(word: &str) -> &'static str {
     match word {
         "wire" | "logic" | "signal" => {

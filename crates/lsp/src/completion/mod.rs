@@ -29,7 +29,6 @@ const UNITS: [&str; 5] = ["cycles", "deg", "ms", "s", "steps"];
 
 pub(super) const TRIGGERS: [&str; 5] = [":", "[", "(", "\"", "/"];
 
-/// Those that matter in a path only.
 const TRIGGERS_IN_PATHS: [&str; 2] = ["\"", "/"];
 
 /// `typed` is the trigger, unless the user asked.
@@ -68,7 +67,6 @@ fn is_inside(token: &Token, spot: &Spot<'_>) -> bool {
     token.kind == TokenKind::Quoted && (token.range.start + 1..=end).contains(&spot.offset)
 }
 
-/// A comment contains its end.
 fn is_comment(tokens: &[Token], offset: usize) -> bool {
     tokens
         .iter()
@@ -107,7 +105,6 @@ fn values(files: &Files<'_>, keyword: &str, field: &str) -> Vec<CompletionItem> 
     }
 }
 
-/// Names that have a meaning or, if the declaration does not parse, its words.
 fn nets(before: &Before<'_>, files: &Files<'_>, wanted: NameKind) -> Vec<CompletionItem> {
     let Some(first) = before.tokens.first() else { return Vec::new() };
     let checked = files.checked;

@@ -8,24 +8,18 @@ use nbc_lang::syntax::{KEYWORDS, Token, TokenKind};
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Place<'t> {
-    /// Where a declaration of this kind is named.
     Name(NameKind),
     Outside,
     NewName,
-    /// After a number, or after `for` and a number.
     Unit,
     Field(&'t str),
     Value(&'t str, &'t str),
     Statement,
-    /// Where a value is expected.
     Operand,
-    /// After a value.
     Infix,
-    /// In a width, an index or the parameters of a call.
     Size,
     /// The ports of the tested circuit of that name, or of the simulated swarm.
     Columns(&'t str),
-    /// In a row of a test or of a schedule.
     Row,
     Schedule,
     UsedFile,
@@ -100,7 +94,6 @@ impl<'t> Before<'t> {
         self.tokens.len().checked_sub(2).map_or("", |at| self.word(at))
     }
 
-    /// Whether the declaration has ended on an earlier line.
     fn is_complete(&self, offset: usize) -> bool {
         let has_braces = self.tokens.iter().any(|token| &self.text[token.range.clone()] == "{");
         let has_ended =
@@ -108,7 +101,6 @@ impl<'t> Before<'t> {
         has_ended && self.is_first(offset)
     }
 
-    /// Whether a byte begins a line, apart from spaces and the word that is being written.
     fn is_first(&self, offset: usize) -> bool {
         let last = self.tokens.last().map_or(0, |token| token.range.end);
         self.text[last.min(offset)..offset].contains('\n')
@@ -143,7 +135,6 @@ impl<'t> Before<'t> {
         }
     }
 
-    /// Whether the innermost bracket holds statements: of a body, a loop, or a test's reference.
     fn is_block(&self) -> bool {
         let Some(&at) = self.open.last() else { return false };
         let line = self.text[..self.tokens[at].range.start].rfind('\n').map_or(0, |end| end + 1);
@@ -167,7 +158,6 @@ impl<'t> Before<'t> {
         }
     }
 
-    /// Whether a byte is on a line after that of the first bar.
     fn is_row(&self, offset: usize) -> bool {
         let bar = self.tokens.iter().find(|token| &self.text[token.range.clone()] == "|");
         bar.is_some_and(|bar| self.text[bar.range.end..offset].contains('\n'))
@@ -218,7 +208,6 @@ impl<'t> Before<'t> {
 
 const WORDS_BEFORE_VALUES: [&str; 10] = ["and", "else", "if", "nand", "nor", "not", "or", "then", "xnor", "xor"];
 
-/// Whether a token is a keyword that begins a line.
 fn begins(text: &str, tokens: &[Token], at: usize) -> bool {
     let Range { start, .. } = tokens[at].range;
     KEYWORDS.contains(&&text[tokens[at].range.clone()]) && (start == 0 || text[..start].ends_with(['\n', '\r']))
@@ -229,7 +218,6 @@ mod tests {
     use super::*;
     use crate::tokens::tokens;
 
-    /// The place of the `$` in a text.
     fn place(text: &str) -> String {
         let offset = text.find('$').unwrap();
         let text = text.replace('$', "");

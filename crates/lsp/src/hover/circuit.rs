@@ -26,7 +26,6 @@ pub(super) fn instance(files: &Files<'_>, circuit: &Circuit) -> Option<Instance>
     checked.in_use(circuit).filter(|_| is_meant)
 }
 
-/// `inputs a (8 bits), b; output q; parameter n`
 fn interface(files: &Files<'_>, circuit: &Circuit) -> String {
     let (inputs, rest) = circuit.nets.split_at(circuit.inputs);
     let port = |net: &Net| match width(files, net.span) {
@@ -45,7 +44,6 @@ fn interface(files: &Files<'_>, circuit: &Circuit) -> String {
     text
 }
 
-/// In words; of several, all.
 pub(super) fn width(files: &Files<'_>, declared: Span) -> Option<String> {
     let widths: Vec<u32> = files.checked.widths.of(declared).collect();
     match &widths[..] {

@@ -35,7 +35,6 @@ fn declaration(files: &Files<'_>, name: Span) -> Span {
         .unwrap_or(name)
 }
 
-/// The body begins at the first brace.
 fn head(declaration: &str) -> String {
     declaration.split('{').next().unwrap_or_default().split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -42,7 +42,6 @@ pub(super) fn field(of: RecordKeyword, word: &str) -> Option<String> {
     if is_there { meaning(heading, word, row(heading, word)) } else { keyword(word) }
 }
 
-/// The row whose first column names the word, below the heads of the table.
 fn row(heading: &str, word: &str) -> Option<String> {
     let blocks = blocks(section(heading)?);
     blocks.iter().filter(|block| block.starts_with('|')).find_map(|block| {
@@ -55,8 +54,7 @@ fn names(text: &str, word: &str) -> bool {
     text.split(&format!("`{word}")).skip(1).any(|rest| !rest.starts_with(is_word))
 }
 
-/// The description is `row`, or the paragraph that names the word, or the first one. The example is the first with the
-/// word in the section, or else in the manual.
+/// `row`, or the paragraph that names the word, or the first one; then the first example with the word.
 fn meaning(heading: &str, word: &str, row: Option<String>) -> Option<String> {
     let blocks = blocks(section(heading)?);
     let mut prose = blocks.iter().filter(|block| !block.starts_with('|') && !block.starts_with("```"));

@@ -23,11 +23,9 @@ pub(super) struct Shown {
     pub(super) place: Span,
     /// Markdown.
     pub(super) text: String,
-    /// Its figures can be added when it is compiled.
     pub(super) subject: Option<Subject>,
 }
 
-/// The part of a hover that is known without compiling.
 pub(super) fn show(spot: &Spot<'_>, session: &Session, pictures: bool) -> Option<Shown> {
     if let Some(found) = spot.name() {
         return Some(of_name(spot, found, session, pictures));

@@ -5,7 +5,6 @@ use base64::engine::general_purpose::STANDARD;
 
 use nbc_session::report::Svg;
 
-/// An image of Markdown that needs no file.
 pub(super) fn image(title: &str, svg: &Svg) -> String {
     format!("![{title}](data:image/svg+xml;base64,{})\n", STANDARD.encode(svg.finish()))
 }

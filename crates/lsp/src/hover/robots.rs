@@ -11,7 +11,6 @@ use nbc_lang::syntax::tree::{Declaration, DeclarationKind};
 use nbc_session::report::{self, Listing, Portrait, Scheme};
 use nbc_session::{CompileOptions, Session};
 
-/// The best robot for each function.
 pub(super) fn of_library(files: &Files<'_>, session: &Session, name: &str, pictures: bool) -> Option<String> {
     let library = session.robots(files.checked, Some(name), &CompileOptions::default()).ok()?;
     let mut seen = BTreeSet::new();

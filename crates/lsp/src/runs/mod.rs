@@ -82,7 +82,6 @@ impl Running {
 }
 
 impl Drop for Runs {
-    /// No client waits for the runs any more.
     fn drop(&mut self) {
         self.running.iter().for_each(Running::cancel);
     }

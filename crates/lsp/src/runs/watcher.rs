@@ -43,7 +43,6 @@ pub(super) struct Watcher {
     pub(super) stop: CancelFlag,
     /// The current part, from 0, and the number of parts.
     pub(super) part: (u64, u64),
-    /// The percentage that was reported last.
     pub(super) told: u32,
 }
 

@@ -25,7 +25,6 @@ impl<W: SourceWorld> DiskShell<W> {
         results::remove_leftovers();
         let (queue, inbox) = unbounded::<LanguageWork>();
         let done = wake.clone();
-        // It ends with the shell.
         thread::spawn(move || {
             for work in inbox {
                 work();

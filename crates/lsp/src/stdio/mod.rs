@@ -23,7 +23,6 @@ use nbc_base::source::SourceWorld;
 use nbc_session::store::{DiskWorld, FolderWorld};
 use pending::Pending;
 
-/// Until the editor ends the session or closes its connection.
 pub fn serve_standard() -> Result<ServerEnd, Diagnostic> {
     let (connection, wire) = wire::open();
     // After an error the threads still wait for the client.
@@ -95,8 +94,7 @@ fn send(connection: &Connection, service: &mut LanguageService) {
     }
 }
 
-/// Serves a client that sends these texts and then closes its connection. The fuzzer calls this, because it needs no
-/// pipe.
+/// For the fuzzer, without a pipe: a client sends these texts and then closes its connection.
 pub fn serve_texts(folder: &Path, texts: &[&[u8]]) {
     let world = FolderWorld::new(folder).expect("there is such a folder");
     let (server, client) = Connection::memory();

@@ -53,7 +53,6 @@ impl Pending {
     }
 }
 
-/// Whether a message changes what is checked, or ends the server.
 fn is_change(message: &Message) -> bool {
     match message {
         Message::Request(request) => request.method == "shutdown",

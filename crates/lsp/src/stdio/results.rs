@@ -19,7 +19,6 @@ const PREFIX: &str = "results-";
 const TRIES: usize = 3;
 
 impl ResultFolder {
-    /// An error is a message for people.
     pub(super) fn path(&mut self) -> Result<PathBuf, String> {
         if let Some((path, _)) = &self.made {
             return Ok(path.clone());

@@ -28,7 +28,6 @@ pub(super) fn open() -> (Connection, Wire) {
 }
 
 impl Wire {
-    /// Until all is written.
     pub(super) fn join(self) -> Result<(), String> {
         let read = self.reader.join().unwrap_or_else(|_| Err("the reader failed".to_owned()));
         // What came before a broken message is still answered.
@@ -37,7 +36,6 @@ impl Wire {
     }
 }
 
-/// Until `exit` or the end of the input.
 fn read_all(input: &mut impl BufRead, messages: &Sender<Message>) -> Result<(), String> {
     loop {
         let arrived = match read(input) {
@@ -69,8 +67,7 @@ fn refuse(answer: &Value) {
     let _ = write!(output, "Content-Length: {}\r\n\r\n{answer}", answer.len()).and_then(|()| output.flush());
 }
 
-/// An error is the answer to a text that is not a message, after which the next can still be read; `None` at the end of
-/// the input.
+/// An error answers a text that is not a message, after which the next can be read; `None` at the end of the input.
 fn read(input: &mut impl BufRead) -> Result<Option<Result<Message, Value>>, String> {
     let Some(length) = length(input)? else { return Ok(None) };
     if length > MOST {
@@ -85,7 +82,6 @@ fn read(input: &mut impl BufRead) -> Result<Option<Result<Message, Value>>, Stri
     Ok(Some(parse(&bytes).and_then(message)))
 }
 
-/// From the header; `None` at the end of the input.
 fn length(input: &mut impl BufRead) -> Result<Option<u64>, String> {
     let mut length = None;
     loop {

@@ -25,7 +25,6 @@ pub(super) const CHECKS: [&str; 17] = [
     "niche",
 ];
 
-/// The words that can be forbidden: the operators of gates and numbers, and calls of the standard circuits.
 const OPERATORS: [&str; 15] =
     ["not", "and", "or", "xor", "nand", "nor", "xnor", "if", "match", "table", "+", "-", "*", "==", CALLS];
 
@@ -98,7 +97,6 @@ fn patterns<'a>(first: Piece<'_>, after: Piece<'a>, ports: &mut Vec<Piece<'a>>) 
     patterns.into_iter().map(|pattern| values(first, &pattern.words(), ports)).collect()
 }
 
-/// Values such as `a=1 sum=0b101`.
 pub(super) fn values<'a>(
     first: Piece<'_>,
     words: &[Piece<'a>],

@@ -47,7 +47,7 @@ pub fn faults_of_lessons(sources: Vec<LessonTexts>, world: &SharedWorld) -> Diag
     load(sources, Some(world)).found
 }
 
-/// The faults of a lesson whose programs are not checked. The fuzzer calls this, because it needs no folder.
+/// For the fuzzer, which has no folder: programs are not checked.
 pub fn faults_of_lesson(text: &str) -> Diagnostics {
     let mut read = ReadLessons::default();
     read.add("lesson.md", text, None);
@@ -115,7 +115,6 @@ impl ReadLessons {
     }
 }
 
-/// The errors of a lesson's programs, at their places in the lesson. The ports that it names are checked, too.
 fn faults(file: FileId, text: &str, read: &mut ReadLesson<'_>, world: &SharedWorld) -> Vec<Diagnostic> {
     let mut session = Session::new(world.clone());
     let mut found = Vec::new();
@@ -138,7 +137,6 @@ fn faults(file: FileId, text: &str, read: &mut ReadLesson<'_>, world: &SharedWor
     found
 }
 
-/// A text in which all but a piece is blank.
 fn alone(text: &str, piece: Piece<'_>) -> String {
     let is_inside = |at: usize| (piece.at..piece.at + piece.text.len()).contains(&at);
     let blank = |(at, letter): (usize, char)| match letter {
@@ -154,7 +152,6 @@ fn ports_of(checked: &Checked) -> Vec<String> {
     own.flat_map(|circuit| &circuit.nets[..circuit.inputs + circuit.outputs]).map(|net| net.name.clone()).collect()
 }
 
-/// A diagnostic of a program as one of its lesson. What it says about other files is left out.
 fn moved(found: &Diagnostic, checked: &Checked, file: FileId) -> Diagnostic {
     let mut moved = found.clone();
     let own = |span: Span| Some(span.file) == checked.file;

@@ -1,6 +1,5 @@
 //! A part of a lesson's text that knows its place.
 
-/// A part of a text, with the byte at which it begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Piece<'a> {
     pub(super) text: &'a str,

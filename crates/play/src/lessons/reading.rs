@@ -7,7 +7,6 @@ use super::wording::{self, Mistake, Mistaken};
 use crate::message::{LessonCheck, LessonEntry, LessonGoal, LessonMeasure, LessonStep, LessonTab, WrittenProgram};
 
 pub(super) const HINTS: usize = 3;
-/// The line around a program, and the one at its start.
 const FENCE: &str = "```";
 const PROGRAM: &str = "```nb";
 const OF_LESSON: [&str; 3] = ["tab", "best", "hint"];
@@ -23,7 +22,6 @@ pub(super) struct ReadLesson<'a> {
 }
 
 enum Block<'a> {
-    /// A line with `#` before it, without it.
     Title(Piece<'a>),
     Heading(Piece<'a>),
     Entry(Vec<Piece<'a>>),
@@ -88,10 +86,8 @@ fn blocks(text: &str) -> Vec<Block<'_>> {
 struct Reader<'a> {
     lesson: ReadLesson<'a>,
     heading: Option<Piece<'a>>,
-    /// `type` in the solution of the present step, and its program, which belong together.
     types: Option<Piece<'a>>,
     typed: Option<Piece<'a>>,
-    /// The fields of the lesson so far that may be there once.
     fields: Vec<&'a str>,
     /// The first line, the place of what is missing.
     start: Piece<'a>,
@@ -250,7 +246,6 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A goal such as `4 robots`.
 fn goal(text: &str) -> Option<LessonGoal> {
     let (number, of) = text.split_once(' ')?;
     let of = match of.trim() {

@@ -9,7 +9,6 @@ const DEEDS: [&str; 16] = [
     "mirror", "random", "evolve", "choose",
 ];
 
-/// Checks a line of a solution, and adds the ports that it names to `ports`.
 pub(super) fn deed<'a>(text: Piece<'a>, ports: &mut Vec<Piece<'a>>) -> Result<(), Mistaken> {
     let words = text.words();
     let Some((&first, rest)) = words.split_first() else {

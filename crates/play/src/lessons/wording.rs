@@ -89,7 +89,6 @@ pub(super) const TOO_MUCH: Mistake = Mistake::new(Code::Syntax, "unexpected `{}`
 pub(super) const TYPING: Mistake = Mistake::new(Code::Syntax, "`do: type` and a program belong together", "")
     .help("the program of a step is what `do: type` types");
 
-/// A mistake at its place, with the known words for an unknown one.
 #[derive(Debug)]
 pub(super) struct Mistaken {
     mistake: Mistake,

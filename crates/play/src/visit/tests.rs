@@ -39,7 +39,6 @@ impl Tab {
         Self { folder, shell, line, visit, now: Duration::ZERO }
     }
 
-    /// Returns the texts that come until the work of the request is done.
     fn ask(&mut self, request: &Value) -> Vec<Value> {
         self.visit.receive(&request.to_string(), self.now);
         while self.shell.has_work() {
@@ -58,7 +57,6 @@ impl Tab {
         texts.collect()
     }
 
-    /// Lets some time pass, in steps of a few milliseconds; returns the number of frames.
     fn pass(&mut self, time: Duration) -> usize {
         let end = self.now + time;
         let mut frames = 0;

@@ -20,8 +20,7 @@ pub trait Backend: Debug + Send + Sync {
     /// Opens a world with a robot for each body, at rest at the setting's start, its clock at zero.
     fn flock(&self, setting: &Setting, bodies: &[Body]) -> Box<dyn Flock>;
 
-    /// Simulates each trial from a fresh start; result `i` is that of trial `i`. The results do not depend on threads
-    /// or on the grouping of trials.
+    /// Result `i` is that of trial `i`, from a fresh start. It does not depend on threads or on the grouping of trials.
     fn run_trials(&self, setting: &Setting, trials: &[Trial]) -> Vec<Trajectory>;
 }
 
@@ -33,20 +32,17 @@ pub trait Flock: Debug + Send {
         self.len() == 0
     }
 
-    /// Simulates robot `i` through `spells[i]`. The actuation clock continues from call to call. A robot with a fault
-    /// stays in its state after its last complete env step.
+    /// The actuation clock continues from call to call. A robot with a fault stays as after its last complete env step.
     /// Panics when there is not one spell for each robot.
     fn advance_under(&mut self, spells: &[Spell]);
 
-    /// Simulates `env_steps` more env steps, with robot `i` under `patterns[i]`, as [`Flock::advance_under`].
-    /// Panics when there is not one pattern for each robot.
+    /// As [`Flock::advance_under`]. Panics when there is not one pattern for each robot.
     fn advance(&mut self, patterns: &[Pattern], env_steps: u32) {
         let spell = |&pattern: &Pattern| Spell::of(pattern, env_steps);
         self.advance_under(&patterns.iter().map(spell).collect::<Vec<_>>());
     }
 
-    /// Keeps robot `i` if `keep[i]` is true, in the same order, and drops the others.
-    /// Panics when there is not one entry for each robot.
+    /// Keeps robot `i` if `keep[i]`, in the same order. Panics when there is not one entry for each robot.
     fn retain(&mut self, keep: &[bool]);
 
     /// The center of mass of robot `i`, in voxels: x and y.

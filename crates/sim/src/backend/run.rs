@@ -42,7 +42,6 @@ impl Run {
         self.spells.last().expect("a run that is not done has a spell")
     }
 
-    /// Records an env step: its center of mass, or its fault.
     pub fn finish_env_step(&mut self, center: [f64; 2], is_unstable: bool) {
         let fault = |kind| Some(Fault { env_step: self.clock + 1, kind });
         if is_unstable {
@@ -66,7 +65,6 @@ impl Run {
         if self.fault.is_some() { 0 } else { self.spells.iter().map(|spell| spell.steps).sum() }
     }
 
-    /// The spells of at most `env_steps` env steps ahead, in order of time.
     #[cfg(feature = "gpu")]
     pub fn spells_ahead(&self, env_steps: u32) -> Vec<Spell> {
         let mut left = env_steps;
@@ -95,8 +93,7 @@ impl Run {
     }
 }
 
-/// A run for each body, at its start, without a schedule. Equal bodies share their lattice, equal palettes the signals
-/// of bodies that sense no image.
+/// Equal bodies share their lattice, equal palettes the signals of bodies that sense no image.
 pub fn runs<'a>(constants: &Constants, setting: &Setting, bodies: impl IntoIterator<Item = &'a Body>) -> Vec<Run> {
     let mut palettes: BTreeMap<&Palette, Arc<Signals>> = BTreeMap::new();
     let mut starts: BTreeMap<&Body, Run> = BTreeMap::new();

@@ -5,7 +5,6 @@ use nbc_circuit::formats::buses::{Bus, buses};
 use nbc_circuit::formats::{Design, verilog_design};
 use nbc_circuit::{CancelFlag, DesignRun, Likeness, NetId, likeness};
 
-/// The most steps, outputs and values that are told.
 const MOST_STEPS: usize = 12;
 const MOST_OUTPUTS: usize = 4;
 const MOST_VALUES: usize = 12;
@@ -48,7 +47,6 @@ impl ModuleComparison {
     }
 }
 
-/// The ports of a design.
 struct Told {
     inputs: Vec<Bus>,
     outputs: Vec<Bus>,

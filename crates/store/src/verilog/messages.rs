@@ -8,7 +8,6 @@ use serde::Deserialize;
 use crate::verilog::wording;
 use nbc_base::source::{VerilogNote, VerilogPlace};
 
-/// The most warnings that are shown.
 const MOST: usize = 20;
 
 #[derive(Deserialize)]

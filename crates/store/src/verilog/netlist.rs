@@ -72,7 +72,6 @@ enum Bit {
 type Driver = (String, Option<VerilogPlace>);
 
 impl WordNetlist {
-    /// The version of Yosys, such as `0.70`.
     pub(super) fn version(&self) -> String {
         self.creator.split_whitespace().nth(1).unwrap_or("?").to_owned()
     }
@@ -83,12 +82,10 @@ impl WordNetlist {
         ports.filter(|(_, port)| port.upto == 1).map(|(name, _)| name.clone()).collect()
     }
 
-    /// Where a module is declared.
     pub(super) fn declared(&self, module: &str, names: &SandboxFiles) -> Option<VerilogPlace> {
         self.modules.get(module)?.attributes.place(module, names)
     }
 
-    /// Where the nets of a module are declared.
     pub(super) fn places(&self, module: &str, names: &SandboxFiles) -> BTreeMap<String, VerilogPlace> {
         let nets = self.modules.get(module).into_iter().flat_map(|module| &module.netnames);
         nets.filter_map(|(name, net)| Some((name.clone(), net.attributes.place(name, names)?))).collect()
@@ -236,7 +233,6 @@ impl WordCell {
         messages::at(self.attributes.src.as_ref()?, names)
     }
 
-    /// What drives bit `at` of an output.
     fn described(&self, port: &str, at: usize, nets: &BTreeMap<&Bit, String>) -> String {
         let buffered = self.connections.get("A").and_then(|bits| bits.get(at)).filter(|_| self.kind == "$buf");
         match buffered {
@@ -249,7 +245,6 @@ impl WordCell {
 }
 
 impl Attributes {
-    /// The place of a name.
     fn place(&self, name: &str, names: &SandboxFiles) -> Option<VerilogPlace> {
         let src = self.src.as_ref()?;
         let mut place = messages::at(src, names)?;

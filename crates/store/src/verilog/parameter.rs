@@ -17,7 +17,6 @@ impl FromStr for ParameterValue {
     }
 }
 
-/// Whether a text is a number with a size and a base.
 fn is_sized(text: &str) -> bool {
     let Some((size, based)) = text.strip_prefix('-').unwrap_or(text).split_once('\'') else { return false };
     let based = based.strip_prefix(['s', 'S']).unwrap_or(based);

@@ -39,7 +39,6 @@ const GATES: &str = "flatten; chformal -remove; delete t:$print t:$scopeinfo; op
     -cell $_DFF_?P0_ r -cell $_DFF_?P1_ r -cell $_DLATCH_?P0_ r -cell $_DLATCH_?P1_ r \
     -cell $_DFFSR_?PP_ 0 -cell $_DLATCHSR_?PP_ 0; simplemap; opt_clean; setattr -unset src; write_blif -attr";
 
-/// The netlist of words.
 const WORDS: &str = "words.json";
 
 /// Powers as products, which Yosys does not make of them.
@@ -54,15 +53,11 @@ pub struct TopModule {
     pub parameters: BTreeMap<String, ParameterValue>,
 }
 
-/// Which modules are read.
 pub(crate) enum WantedModules<'a> {
-    /// All that no other contains.
     All,
-    /// One.
     Top(&'a TopModule),
 }
 
-/// The modules of Verilog files.
 pub(crate) fn read(
     files: &VerilogFiles,
     wanted: &WantedModules<'_>,
@@ -94,13 +89,11 @@ pub(crate) fn read(
     .modules(wanted)
 }
 
-/// Files in a sandbox.
 struct Reading<'a> {
     sandbox: &'a mut Sandbox<'a>,
     names: SandboxFiles,
     /// The files of the design, each after a space.
     sources: String,
-    /// The command that reads them.
     slang: String,
     /// Its options for one module, and for the parameters of modules that no other contains.
     tops: String,
@@ -199,7 +192,6 @@ impl Reading<'_> {
         Ok(VerilogModules { version: words.version(), modules, notes })
     }
 
-    /// The tree of the design, and warnings about it.
     fn tree(&mut self) -> Result<(DesignTree, Vec<VerilogNote>), VerilogError> {
         let tree = |reading: &Self| {
             let Self { slang, tops, parameters, sources, .. } = reading;
@@ -232,7 +224,6 @@ impl Reading<'_> {
         }
     }
 
-    /// The tree of one module.
     fn tree_of(&mut self, module: &str) -> Result<(DesignTree, Vec<VerilogNote>), VerilogError> {
         let all = (self.slang.clone(), self.tops.clone());
         if is_plain(module) {
@@ -251,7 +242,6 @@ impl Reading<'_> {
         Err(VerilogError::NoModule { module: module.to_owned(), known })
     }
 
-    /// The netlist of words of these modules; those of gates are in files.
     fn netlists(&self, tops: &[String], commands: &str) -> Result<WordNetlist, VerilogError> {
         let options: String = tops.iter().map(|top| format!(" --top {top}")).collect();
         let hierarchy = if self.keeps_modules() { " --best-effort-hierarchy" } else { "" };
@@ -276,7 +266,6 @@ impl Reading<'_> {
         self.names.keys().filter_map(|name| self.sandbox.result(name)).any(|text| text.contains("keep_hierarchy"))
     }
 
-    /// The module, compared with what Yosys reads.
     fn compared(
         &self,
         module: VerilogModule,
@@ -327,12 +316,10 @@ impl Reading<'_> {
         texts.flat_map(declared).filter(|module| !others.contains(module)).collect()
     }
 
-    /// The first place of a constant.
     fn first(&self, constant: &str) -> Option<VerilogPlace> {
         self.found(|line| line.replace('_', "").to_ascii_lowercase().contains(constant))
     }
 
-    /// Where a module seems to be declared.
     fn declared(&self, module: &str) -> Option<VerilogPlace> {
         self.found(|line| {
             line.trim_start().strip_prefix("module ").is_some_and(|rest| words(rest).next() == Some(module))
@@ -347,7 +334,6 @@ impl Reading<'_> {
     }
 }
 
-/// The words of a line.
 fn words(line: &str) -> impl Iterator<Item = &str> {
     line.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|word| !word.is_empty())
 }

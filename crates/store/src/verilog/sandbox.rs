@@ -57,10 +57,8 @@ pub(super) struct Sandbox<'a> {
     cancel: &'a CancelFlag,
 }
 
-/// How a run has ended.
 pub(super) struct SandboxRun {
     pub(super) is_good: bool,
-    /// Whether it took too long.
     pub(super) is_late: bool,
     pub(super) messages: String,
 }
@@ -78,21 +76,18 @@ impl<'a> Sandbox<'a> {
         Ok(Self { folder, cancel })
     }
 
-    /// Writes a file, and the folders on its path.
     pub(super) fn write(&self, path: &str, text: &str) -> Result<(), VerilogError> {
         let path = self.folder.path().join(path);
         let written = path.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(path, text));
         written.map_err(|error| VerilogError::NoFolder(io_words(&error)))
     }
 
-    /// A file that Yosys wrote.
     pub(super) fn result(&self, path: &str) -> Option<String> {
         let mut text = Vec::new();
         File::open(self.folder.path().join(path)).ok()?.take(MOST_BYTES).read_to_end(&mut text).ok()?;
         Some(String::from_utf8_lossy(&text).into_owned())
     }
 
-    /// What Yosys printed.
     pub(super) fn printed(&self) -> String {
         self.result(PRINTED).unwrap_or_default()
     }
@@ -170,7 +165,6 @@ pub(super) fn is_plain(name: &str) -> bool {
     name.chars().all(is_letter) && name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
 }
 
-/// The end of a path of a file.
 pub(super) fn extension(path: &str) -> &str {
     Path::new(path).extension().and_then(|end| end.to_str()).unwrap_or("v")
 }

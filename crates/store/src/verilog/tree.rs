@@ -8,19 +8,16 @@ use serde_json::Value;
 /// The most levels of a tree.
 const MOST_DEPTH: i32 = 500;
 
-/// A design as slang has elaborated it.
 pub(super) struct DesignTree(Value);
 
 /// What a statement `always` with a list of events reads that is not in the list, and a net that it sets.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct IncompleteEvents {
     pub(super) module: String,
-    /// The net in the flat module, and its name.
     pub(super) target: String,
     pub(super) missing: Vec<String>,
 }
 
-/// What a person should know of the statements of a design.
 #[derive(Default)]
 pub(super) struct Statements {
     pub(super) incomplete: Vec<IncompleteEvents>,
@@ -36,7 +33,6 @@ pub(super) struct Statements {
 }
 
 impl DesignTree {
-    /// None if it is nested too deeply.
     pub(super) fn of(text: &str) -> Option<Self> {
         let mut depth = 0;
         let nests = |c: char| {
@@ -78,7 +74,6 @@ impl DesignTree {
         (tops.into_iter().map(|(_, top)| top).collect(), left_out)
     }
 
-    /// The ports of a module in the order of their declaration.
     pub(super) fn ports(&self, module: &str) -> Vec<String> {
         let mut waiting: Vec<&Value> = self.roots().collect();
         while let Some(instance) = waiting.pop() {
@@ -128,7 +123,6 @@ impl DesignTree {
 }
 
 impl Statements {
-    /// Collects what is below a node of a module. `path` is that of the node in the flat module.
     fn collect(&mut self, node: &Value, module: &str, path: &str, tops: &[String]) {
         match node {
             Value::Array(nodes) => nodes.iter().for_each(|node| self.collect(node, module, path, tops)),
@@ -298,7 +292,6 @@ fn name(node: &Value) -> String {
     node["name"].as_str().unwrap_or_default().to_owned()
 }
 
-/// The symbol of a declaration.
 fn declared(node: &Value) -> String {
     format!("{} {}", node["addr"], name(node))
 }

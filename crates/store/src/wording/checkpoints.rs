@@ -26,7 +26,6 @@ pub(crate) fn damaged(file: &str) -> Diagnostic {
     fault(file, "is damaged: its checksum does not match").with_help("start the run again")
 }
 
-/// A checkpoint without a possible state, in the words of the reader or of a function below.
 pub(crate) fn unreadable_state(file: &str, words: &str) -> Diagnostic {
     fault(file, &format!("cannot be read: {words}"))
 }

@@ -22,7 +22,6 @@ pub(crate) fn too_deep(file: &SourceFile, span: Span) -> Diagnostic {
     Diagnostic::new(Code::RobotFile, message, span, "the limit is reached here")
 }
 
-/// Text that is not the YAML of a robot, in the words of the reader.
 pub(crate) fn not_robot(file: &SourceFile, words: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::RobotFile, format!("`{}` is not a robot file: {words}", file.name), span, "here")
 }
@@ -43,12 +42,10 @@ pub(crate) fn two_pieces(file: &SourceFile, span: Span) -> Diagnostic {
         .with_help("the voxels of a robot are connected by their sides")
 }
 
-/// A value that no measurement gives, in the words of a function below.
 pub(crate) fn unsound(file: &SourceFile, flaw: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::RobotFile, format!("`{}` is not a valid robot file: {flaw}", file.name), span, "here")
 }
 
-/// Adds an example of a body to an error of a file that needs only a body.
 pub(crate) fn with_body_example(error: Diagnostic) -> Diagnostic {
     error.with_help("write the body's rows, top row first: `body: [\"00345\", \"33333\"]`")
 }

@@ -8,7 +8,6 @@ const MOST_AT_ONCE: usize = 4096;
 
 pub(super) struct Leg<'a> {
     pub body: &'a Body,
-    /// The state from which it goes on; if there is none, it starts afresh.
     pub from: Option<&'a Snapshot>,
     pub spell: Spell,
 }

@@ -60,8 +60,7 @@ pub(crate) fn evaluate(
     tasks.into_iter().map(result).collect()
 }
 
-/// The displacement of each body under each constant pattern, in voxels, or the first fault of its simulations. A
-/// stimulus that a body does not sense changes nothing, so patterns that differ in such a one alone are simulated once.
+/// In voxels, or the first fault. Patterns that differ only in stimuli that a body does not sense are simulated once.
 pub fn fixed_displacements(
     simulator: &Simulator,
     setting: &Setting,
@@ -83,9 +82,8 @@ pub fn fixed_displacements(
     walkers.iter().enumerate().map(walked).collect()
 }
 
-/// The simulations to make next: one of each undecided body, first of those that will probably need most, and only as
-/// many as fill the robots that are simulated at once, because the others can wait. Room that is left goes to those
-/// that will probably be needed soonest.
+/// One of each undecided body, first of those that will probably need most, and only as many as are simulated at once,
+/// because the others can wait. Room that is left goes to those that will probably be needed soonest.
 fn wanted(
     plan: &SimulationPlan,
     tasks: &[(&EvaluationTask, usize)],
@@ -137,7 +135,6 @@ mod tests {
     };
     use nbc_sim::{Kernel, LaneBackend, Monitor};
 
-    /// A search in which many bodies are dropped, with a long simulation of these spells.
     fn evolution(spells: &[(usize, u32)]) -> Evolution {
         let spell = |&(pattern, steps): &(usize, u32)| Spell::of(Pattern::PAIRS[pattern], steps);
         let variable = Schedule { spells: spells.iter().map(spell).collect() };
@@ -147,7 +144,6 @@ mod tests {
 
     const PAPER: [(usize, u32); 4] = [(0, 84), (1, 84), (2, 84), (3, 84)];
 
-    /// The results of bodies whose every simulation is made from its start to its end.
     fn straight(evolution: &Evolution, candidates: &[Candidate]) -> Vec<CandidateOutcome> {
         let noise = RobotNoise::new(&evolution.world.noise, 0);
         let fixed = Pattern::all(2).map(|pattern| Schedule::constant(pattern, evolution.fixed_steps));
@@ -233,7 +229,6 @@ mod tests {
         EvaluationProtocol::of(evolution).distance_steps()
     }
 
-    /// Each search by itself, without a memory, on one lane; then all together.
     #[test]
     fn results_and_counts_are_the_same_together_and_with_a_memory() {
         let evolution = evolution(&PAPER);

@@ -18,9 +18,8 @@ pub(super) enum Walk {
     Long,
 }
 
-/// What an evaluation needs next: simulations under the missing patterns, in this order, until the body is decided, or
-/// the rest of the long one. If the body walks as its parent does, it needs `likely` of the former, and `legs`
-/// simulations in all, each stretch of the long one counted.
+/// Simulations under the missing patterns, in this order, until the body is decided, or the rest of the long one.
+/// If it walks as its parent does, it needs `likely` patterns and `legs` simulations in all, each stretch counted.
 #[derive(Debug)]
 pub(super) enum Next {
     Fixed { missing: Vec<Pattern>, likely: usize, legs: usize },
@@ -164,8 +163,7 @@ impl<'a> SimulationPlan<'a> {
         Some(LongWalk { walked, env_steps: own.map(|&(_, steps)| steps).sum() })
     }
 
-    /// The sum of distances in the long simulation with these places at the start and after each stretch so far; `None`
-    /// if it has not ended. In each spell the direction must be that of the fixed simulations.
+    /// `None` if it has not ended. In each spell the direction must be that of the fixed simulations.
     fn walked(&self, walker: &Walker, trail: &[f64]) -> Option<Result<f64, CandidateOutcome>> {
         let mut sum = 0.0;
         for &(pattern, begin, end) in &self.spells {
@@ -180,9 +178,8 @@ impl<'a> SimulationPlan<'a> {
     }
 }
 
-/// The place of the pattern under which a body should be simulated next. If its parent is known, that is one after
-/// which it would be dropped if it walked half as far as its parent; of several the one under which its parent walked
-/// least.
+/// If its parent is known, one after which the body would be dropped if it walked half as far; of several the one
+/// under which its parent walked least.
 fn most_telling(task: &EvaluationTask, walker: &Walker, known: &[Option<f64>], left: &[Pattern]) -> usize {
     let key = |&pattern: &Pattern| {
         let expected = walker.expected(task, pattern)?;

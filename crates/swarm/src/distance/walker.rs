@@ -39,21 +39,18 @@ impl Walker {
         different
     }
 
-    /// The displacement of its parent under a pattern that it tells apart: the smallest, if the parent tells more
-    /// apart.
+    /// Of its parent under a pattern that it tells apart: the smallest, if the parent tells more apart.
     pub fn expected(&self, task: &EvaluationTask, pattern: Pattern) -> Option<f64> {
         let same = self.sensed.iter().zip(task.expected.as_deref()?).filter(|(own, _)| **own == pattern);
         same.map(|(_, &moved)| moved).min_by(|a, b| a.abs().total_cmp(&b.abs()))
     }
 
-    /// What is known of its displacements, with that under a pattern that it tells apart.
     pub fn with(&self, known: &[Option<f64>], pattern: Pattern, moved: f64) -> Vec<Option<f64>> {
         let each = self.sensed.iter().zip(known);
         each.map(|(&own, &known)| if own == pattern { Some(moved) } else { known }).collect()
     }
 }
 
-/// What a body senses of each pattern: the stimuli of its sensors.
 fn sensed_patterns(body: &Body) -> Vec<Pattern> {
     let palette = body.palette();
     let mut sensed = vec![false; palette.inputs()];

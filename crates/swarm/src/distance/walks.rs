@@ -7,8 +7,7 @@ use crate::evaluation::EvaluationProtocol;
 use crate::evolve::CandidateOutcome;
 use nbc_base::model::{Body, Fault, FaultKind, Pattern};
 
-/// The bodies of each half of the memory. Searches of small boxes draw a body again that they drew thousands of bodies
-/// ago; both halves together take some tens of megabytes.
+/// Searches of small boxes draw bodies again after thousands of others. Both halves take some tens of megabytes.
 const HALF: usize = 50_000;
 
 /// What is known of a body. It depends on the protocol and the body alone.
@@ -37,15 +36,13 @@ impl Walks {
     }
 }
 
-/// The simulations of recently evaluated bodies, so that a body that is drawn again is not simulated again. Results do
-/// not depend on it.
+/// The simulations of recently evaluated bodies. Results do not depend on it.
 #[derive(Debug, Default)]
 pub struct WalkMemory(Mutex<Remembered>);
 
 /// When the recent half is full, it takes the place of the other one.
 #[derive(Debug, Default)]
 struct Remembered {
-    /// A number for each protocol: its place.
     protocols: Vec<EvaluationProtocol>,
     recent: BTreeMap<(usize, Body), Walks>,
     older: BTreeMap<(usize, Body), Walks>,

@@ -60,7 +60,6 @@ impl Archive {
         Self { descriptor: Descriptor::new(evolution), niche: evolution.niche, niches: BTreeMap::new() }
     }
 
-    /// An archive with these niches; niches without an elite are left out.
     pub fn with_niches(evolution: &Evolution, niches: Vec<(NicheKey, Vec<Elite>)>) -> Self {
         let niches = niches.into_iter().filter(|(_, elites)| !elites.is_empty()).collect();
         Self { niches, ..Self::new(evolution) }
@@ -109,8 +108,7 @@ impl Archive {
         }
     }
 
-    /// The fitnesses of the elites in the niche of a body with that behavior. A body that they keep out now is kept out
-    /// later too: elites are only replaced by bodies that dominate them.
+    /// A body that these keep out now is kept out later too: elites are only replaced by bodies that dominate them.
     pub fn fitnesses(&self, body: &Body, behavior: Behavior) -> Vec<[f64; 2]> {
         let elites = self.niches.get(&self.descriptor.niche(body, behavior));
         elites.into_iter().flatten().map(|elite| elite.fitness).collect()

@@ -16,9 +16,7 @@ pub struct ScoreMap {
 }
 
 /// The network that every search starts from: each input linked to each output with weight 0, no hidden nodes.
-///
-/// `materials` is the size of the palette; there is one more output, for empty. By the paper's text there is no input
-/// for an axis of length 1.
+/// `materials` is the size of the palette. By the paper's text there is no input for an axis of length 1.
 pub fn start(materials: usize, rules: Rules) -> Genotype {
     let first = if rules.follow_code(Matter::Depth) { 0 } else { 1 };
     let inputs = (first..INPUTS).map(NodeKind::Input);
@@ -63,7 +61,6 @@ struct Run<'a> {
     inputs: Vec<Vec<f64>>,
     /// The links to each node in their order: the index of the source, and the weight.
     sources: Vec<Vec<(usize, f64)>>,
-    /// The value that a node gives to its later targets.
     remembered: Vec<Option<Vec<f64>>>,
     /// The nodes being computed. A node that needs one of them is on a cycle, which only a damaged file can contain.
     open: Vec<bool>,
@@ -94,7 +91,6 @@ impl<'a> Run<'a> {
         map
     }
 
-    /// Passes the values that the node at index `at` gives to its targets to `take`, each with its place in `to`.
     fn give(&mut self, at: usize, take: impl Fn(f64, &mut f64), to: &mut [f64]) {
         let pass = |values: &[f64], to: &mut [f64]| values.iter().zip(to).for_each(|(&value, to)| take(value, to));
         let activation = match self.genotype.nodes[at].1 {
@@ -150,7 +146,6 @@ fn inputs(rules: Rules, width: usize, height: usize) -> Vec<Vec<f64>> {
     vec![vec![x; places], rows, columns, scaled(distance, rules), vec![1.0; places]]
 }
 
-/// Scaled linearly to the range from -1 to 1.
 fn scaled(values: Vec<f64>, rules: Rules) -> Vec<f64> {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -162,7 +157,6 @@ fn scaled(values: Vec<f64>, rules: Rules) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// A network of one hidden node (id 100, square) that two outputs read: 0 first, then 1.
     fn shared_hidden() -> Genotype {
         let node = |id, kind| (NodeId(id), kind);
         let link = |source, target, weight| Link { source: NodeId(source), target: NodeId(target), weight };

@@ -4,8 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use nbc_base::model::{Axis, Behavior, Body, Count, Evolution, Function, MaterialKind, Matter, Rules};
 
-/// A niche: the bin on each axis, from 0; on a behavior axis the bits of the function, on a class axis
-/// those of the first of its class.
+/// The bin on each axis, from 0; of behaviors the bits of the function, of classes those of the first of the class.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct NicheKey(pub Vec<u16>);
 

@@ -5,7 +5,6 @@ use rand::{Rng, RngExt};
 use nbc_base::model::{Activation, Genotype, Link, Matter, MutationWeights, NodeId, NodeKind, Rules};
 
 const LINK_DRAWS: usize = 999;
-/// Standard deviation of a change of weight.
 const WEIGHT_STEP: f64 = 0.5;
 
 /// Activations that hidden nodes draw from: the paper's text names four, the authors' code has the negatives too.
@@ -41,7 +40,6 @@ pub fn mutate<R: Rng>(genotype: &mut Genotype, weights: &MutationWeights, rules:
     prune(genotype);
 }
 
-/// One of `count` indices, drawn uniformly; `None` if there are none.
 pub(crate) fn pick<R: Rng>(count: usize, rng: &mut R) -> Option<usize> {
     (count > 0).then(|| rng.random_range(0..count as u64) as usize)
 }
@@ -129,7 +127,6 @@ fn normal<R: Rng>(rng: &mut R) -> f64 {
     radius * libm::cos(2.0 * std::f64::consts::PI * rng.random::<f64>())
 }
 
-/// An ordered pair of nodes with weight 0.1 or -0.1.
 fn draw_link<R: Rng>(genotype: &Genotype, rng: &mut R) -> Option<Link> {
     let source = genotype.nodes[pick(genotype.nodes.len(), rng)?].0;
     let target = genotype.nodes[pick(genotype.nodes.len(), rng)?].0;

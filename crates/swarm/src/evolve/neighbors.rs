@@ -8,7 +8,6 @@ use crate::evolve::validate;
 use nbc_base::model::{Body, Palette};
 
 const MOST_CHANGES: u32 = 3;
-/// Draws after which a body stays as it is.
 const TRIES: u32 = 100;
 
 /// A valid body that differs from this one in one to three voxels; the same body if none is found.

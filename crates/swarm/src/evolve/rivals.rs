@@ -6,8 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use nbc_base::model::{Behavior, Direction, Niche};
 
-/// The fitnesses of the elites in the niches that a body could enter, one entry for each behavior that it may show.
-/// This is all that an evaluation needs to know of an archive.
+/// The fitnesses of the elites that a body must beat, by its behavior: all that an evaluation needs of an archive.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written", into = "Written")]
 pub struct Rivals {
@@ -16,8 +15,7 @@ pub struct Rivals {
     behaviors: Vec<Vec<Vec<[f64; 2]>>>,
 }
 
-/// Rivals as data: each set of fitnesses once, because many behaviors lead to the same niches, and for each behavior
-/// the places of those that it leads to.
+/// Each set of fitnesses once, because many behaviors lead to the same niches, and its places for each behavior.
 #[derive(Serialize, Deserialize)]
 struct Written {
     niche: Niche,
@@ -54,7 +52,6 @@ impl TryFrom<Written> for Rivals {
 }
 
 impl Rivals {
-    /// The rivals in each niche of each behavior.
     pub fn new(niche: Niche, behaviors: Vec<Vec<Vec<[f64; 2]>>>) -> Self {
         assert!(matches!(behaviors.len(), 16 | 256), "each behavior has an entry");
         let is_open = |niches: &Vec<Vec<[f64; 2]>>| niches.iter().any(Vec::is_empty);
@@ -62,7 +59,6 @@ impl Rivals {
         Self { niche, behaviors: behaviors.collect() }
     }
 
-    /// No rivals of bodies with that many inputs: everything enters an empty archive.
     pub fn none(inputs: usize) -> Self {
         Self::new(Niche::default(), Behavior::all(inputs).map(|_| Vec::new()).collect())
     }
@@ -77,9 +73,8 @@ impl Rivals {
         niches.is_empty() || niches.iter().any(|rivals| has_room(self.niche, rivals, bound))
     }
 
-    /// Whether a body with these displacements could enter the archive, whatever its first fitness and its
-    /// displacements under the other patterns are. There is an entry for each pattern, in their order. If it could not,
-    /// then neither could it with more of them known: its second fitness, the smallest distance, can only decrease.
+    /// Whether a body with these displacements, an entry for each pattern, could enter whatever the others are. If not,
+    /// then neither with more of them known: its second fitness, the smallest distance, can only decrease.
     pub fn admit_any(&self, known: &[Option<f64>]) -> bool {
         let least = known.iter().flatten().map(|d| d.abs()).fold(f64::INFINITY, f64::min);
         let may_show = |behavior: Behavior| {

@@ -11,7 +11,6 @@ use nbc_base::model::{
 pub struct Recoding {
     /// The stimulus that each one becomes.
     order: Vec<usize>,
-    /// Whether each stimulus is inverted then.
     invert: Vec<bool>,
     /// The image of each code, code 0 first.
     codes: Vec<u8>,
@@ -21,8 +20,7 @@ pub struct Recoding {
 const PAIRS: [&[usize]; 2] = [&[0, 1], &[1, 0]];
 const THREES: [&[usize]; 6] = [&[0, 1, 2], &[1, 0, 2], &[0, 2, 1], &[1, 2, 0], &[2, 0, 1], &[2, 1, 0]];
 
-/// The recodings for which a palette has counterpart materials, at most eight of two stimuli and 48 of three, the
-/// identity first.
+/// Those for which a palette has counterparts, at most eight of two stimuli and 48 of three, the identity first.
 pub fn recodings(palette: &Palette) -> Vec<Recoding> {
     let stimuli = palette.inputs();
     let orders: &[&[usize]] = if stimuli == 2 { &PAIRS } else { &THREES };

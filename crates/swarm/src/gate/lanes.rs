@@ -14,19 +14,16 @@ pub(super) const HOLD: usize = 4;
 /// The patterns of one simulation, cycle by cycle.
 pub(super) type Lane = Vec<Pattern>;
 
-/// The simulations that run side by side in the first stage, one from each pattern of that many stimuli.
 pub(super) fn starts(stimuli: usize) -> usize {
     1 << stimuli
 }
 
-/// Random patterns, each held for a random number of cycles, until there are so many.
 pub(super) fn random_holds(stimuli: usize, length: usize, cycles: RangeInclusive<u32>, rng: &mut ChaCha8Rng) -> Lane {
     let HoldPlan(holds) = HoldPlan::random(stimuli, length / *cycles.start() as usize, cycles, rng);
     let cycles = holds.into_iter().flat_map(|(pattern, cycles)| std::iter::repeat_n(pattern, cycles as usize));
     cycles.take(length).collect()
 }
 
-/// The patterns of lane `lane` as a body senses them.
 pub(super) fn sensed(world: &PhysicsWorld, lane: usize, cycles: &Lane) -> Lane {
     let noise = RobotNoise::new(&world.noise, lane);
     let mut sensed = cycles.clone();
@@ -53,7 +50,6 @@ pub(super) mod tests {
     use crate::holds::PatternHold;
     use nbc_base::model::Behavior;
 
-    /// How often each pattern follows each.
     pub(crate) fn steps<'a>(stimuli: usize, lanes: impl IntoIterator<Item = &'a [Pattern]>) -> Vec<Vec<u32>> {
         let many = starts(stimuli);
         let mut steps = vec![vec![0; many]; many];

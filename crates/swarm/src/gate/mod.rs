@@ -25,14 +25,13 @@ const FIRST_LOOK: usize = 3;
 /// The seed of the random sequences: the same for every candidate, and different from that of `characterize`.
 const RANDOM_SEED: u64 = 0x6761_7465;
 
-/// The simulations of a candidate with that many stimuli in each world: those from each pattern, one hold each, and
-/// then random ones.
+/// Those from each pattern, one hold each, and then random ones.
 fn stages(objective: SearchObjective, stimuli: usize) -> [Vec<Lane>; 2] {
     let rng = &mut ChaCha8Rng::seed_from_u64(RANDOM_SEED);
     if objective == SearchObjective::Wave { wave::stages(stimuli, rng) } else { settled::stages(stimuli, rng) }
 }
 
-/// The fitnesses for these holds. More holds and longer ones never raise them.
+/// More holds and longer ones never raise the fitnesses.
 fn fitness<'a>(
     objective: SearchObjective,
     behavior: Behavior,
@@ -46,9 +45,8 @@ pub(super) fn steps(protocol: &EvaluationProtocol) -> u64 {
     cycles as u64 * u64::from(CYCLE_STEPS) * (1 + protocol.others.len() as u64)
 }
 
-/// The result of each task: the simulations from each pattern, then the random ones, then both in each of the
-/// other worlds, as long as the body is right in the world before. After each cycle, bodies that can no longer enter a
-/// niche are dropped; their scores can only decrease.
+/// The simulations from each pattern, then the random ones, then both in each other world while the body is right.
+/// Bodies that can no longer enter a niche are dropped after each cycle; their scores can only decrease.
 pub(crate) fn evaluate(
     simulator: &Simulator,
     protocol: &EvaluationProtocol,
@@ -69,8 +67,7 @@ pub(crate) fn evaluate(
     attempts.into_iter().map(|attempt| attempt.end(all)).collect()
 }
 
-/// Simulates the remaining attempts in some lanes, the first of which is lane `first` of its world. Their holds are the
-/// last ones of each attempt.
+/// The first lane is lane `first` of its world. The holds are the last ones of each attempt.
 fn try_lanes(simulator: &Simulator, world: &PhysicsWorld, attempts: &mut [Attempt], lanes: &[Lane], first: usize) {
     let noise = RobotNoise::new(&world.noise, 0);
     let sensed: Vec<Lane> = (first..).zip(lanes).map(|(lane, cycles)| sensed(world, lane, cycles)).collect();
@@ -101,11 +98,9 @@ struct Attempt<'a> {
     objective: SearchObjective,
     /// The behaviors that it may be scored as; if there are none, its own.
     asked: &'a [Behavior],
-    /// The behavior at the fresh starts, as soon as they are done.
     own: Behavior,
     others: usize,
     passed: usize,
-    /// Whether it was wrong in a world, so that no others follow.
     is_done: bool,
     task: &'a EvaluationTask,
     holds: Vec<Vec<PatternHold>>,
@@ -167,7 +162,6 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// The bounds for the nearest of the behaviors with which it can enter a niche, or of all if there are none.
     fn bound(&self) -> Bound {
         let asked = match (self.passed, self.asked) {
             (0, []) => &[self.own],
@@ -194,7 +188,6 @@ impl<'a> Attempt<'a> {
         raw.map(|own| (counted as f64 + own) / (self.others + 1) as f64)
     }
 
-    /// Ends a world; a body that was wrong in it is tried in no others.
     fn leave_world(&mut self) {
         if self.is_open() {
             self.is_done = !is_right(self.bound().raw);
@@ -206,7 +199,7 @@ impl<'a> Attempt<'a> {
         self.outcome.is_none() && !self.is_done
     }
 
-    /// Its result; a full evaluation has `all` env steps.
+    /// A full evaluation has `all` env steps.
     fn end(self, all: u64) -> Evaluated {
         let outcome = self.outcome.unwrap_or(CandidateOutcome::Measured(self.scores));
         Evaluated { outcome, work: Work { env_steps: self.env_steps, left_out: all - self.env_steps } }
@@ -216,17 +209,14 @@ impl<'a> Attempt<'a> {
 struct Bound {
     is_open: bool,
     behavior: Behavior,
-    /// The fitnesses over all cycles so far, in whatever world.
     raw: [f64; 2],
 }
 
-/// Whether fitnesses are those of a body whose every counted cycle was right.
 fn is_right(raw: [f64; 2]) -> bool {
     raw.iter().all(|score| *score > 0.5)
 }
 
-/// Displacement under each pattern at the fresh starts, without the first cycle, in which the body finds its shape.
-/// There is a walk from each pattern, in their order.
+/// At the fresh starts, without the first cycle, in which the body finds its shape. A walk from each pattern, in order.
 fn settled_displacement(walks: &[Vec<PatternHold>]) -> Displacements {
     let moved: Vec<f64> = walks.iter().map(|holds| holds[0].cycles[1..].iter().sum()).collect();
     Displacements::try_from(moved).expect("there is a walk from each pattern")

@@ -9,12 +9,10 @@ use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic, Fix, Label, Suggestion, counted, suggest};
 use nbc_base::source::Span;
 
-/// "1 bit", "8 bits".
 fn bits(width: impl Into<u64>) -> String {
     counted(width.into() as usize, "bit")
 }
 
-/// A value in advice, with its name if it is a net.
 pub(super) struct OperandText {
     pub(super) width: u32,
     pub(super) span: Span,
@@ -23,7 +21,6 @@ pub(super) struct OperandText {
 }
 
 impl OperandText {
-    /// The constant with `to` bits, if it is one that fits.
     fn resized(&self, to: u32) -> Option<String> {
         let value = self.constant.filter(|value| to >= u128::BITS || value >> to == 0)?;
         Some(if to == 1 { value.to_string() } else { format!("{to}'d{value}") })
@@ -47,7 +44,6 @@ impl OperandText {
     }
 }
 
-/// A value, `what`, of another width than the net at `target` or another place for it.
 pub(super) fn wrong_width(what: &str, expected: u32, found: &OperandText, target: Option<Span>) -> Diagnostic {
     let message = format!("{what} is {} wide, expected {}", bits(found.width), bits(expected));
     let help = if found.width > expected { found.narrowed(expected) } else { found.widened(expected) };
@@ -67,7 +63,6 @@ pub(super) fn wide_condition(found: &OperandText) -> Diagnostic {
     .with_help(format!("test all bits, any bit or a value: `all({net})`, `any({net})`, `{net} == {width}'d3`"))
 }
 
-/// Two values, `what`, which should be equally wide.
 pub(super) fn unequal(what: &str, first: &OperandText, second: &OperandText) -> Diagnostic {
     let message = format!("{what} are {} and {} wide", bits(first.width), bits(second.width));
     let (narrow, wide) = if first.width < second.width { (first, second) } else { (second, first) };
@@ -84,7 +79,6 @@ pub(super) fn unequal(what: &str, first: &OperandText, second: &OperandText) -> 
     }
 }
 
-/// The error with the constant of the width that is needed, or with other help.
 fn with_resized(error: Diagnostic, operand: &OperandText, resized: Option<String>, help: String) -> Diagnostic {
     match resized {
         Some(text) => error.with_help(format!("write `{text}`")).with_fix(Fix::replace(operand.span, text)),
@@ -116,7 +110,6 @@ pub(super) fn pattern_width(found: usize, expected: usize, at: Span) -> Diagnost
     Diagnostic::new(Code::RowWidth, "the pattern is not as wide as the table's inputs", at, label)
 }
 
-/// A second driver of a net; `first` is the place of the first one, if it is another.
 pub(super) fn driven_again(net: &str, first: Option<Span>, at: Span) -> Diagnostic {
     let message = format!("`{net}` is driven more than once");
     let error = Diagnostic::new(Code::MultipleDrivers, message, at, "driven again here")
@@ -196,7 +189,6 @@ pub(super) fn ascending_slice(net: &str, [first, last]: [i128; 2], is_literal: b
         .with_fix(is_literal.then(|| Fix::replace(at, format!("{last}..{first}"))))
 }
 
-/// A loop that would have to count down; `is_literal` where both ends are written as digits.
 pub(super) fn descending_loop([first, last]: [i128; 2], is_literal: bool, at: Span) -> Diagnostic {
     out_of_range(format!("the loop from {first} to {last} makes no turn"), at, "expected the lower end first")
         .with_help(format!("a loop counts up, and leaves out its end: `{last}..{first}`"))
@@ -241,7 +233,6 @@ pub(super) fn repetitions(times: i128, at: Span) -> Diagnostic {
     out_of_range(format!("a value cannot be repeated {times} times"), at, label)
 }
 
-/// An unknown circuit that is named outside of the program.
 pub(super) fn unknown_circuit(name: &str, meant: &Suggestion) -> Diagnostic {
     Diagnostic::without_place(Code::Unknown, format!("no circuit is called `{name}`")).with_suggestion(None, meant)
 }

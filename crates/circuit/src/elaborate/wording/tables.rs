@@ -4,7 +4,6 @@ use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic, Edit, Fix, Suggestion, counted};
 use nbc_base::source::Span;
 
-/// A pattern with anything but `0`, `1` and `-`, and the member that may be meant.
 pub fn not_a_pattern(word: &str, meant: &Suggestion, at: Span) -> Diagnostic {
     let message = format!("`{word}` is not a pattern");
     Diagnostic::new(Code::Syntax, message, at, "expected `0`, `1` and `-`, a number or a member")
@@ -26,7 +25,6 @@ pub fn too_many_bits(bits: usize, at: Span) -> Diagnostic {
     Diagnostic::new(Code::TooLarge, format!("a pattern of {bits} bits is too wide"), at, label)
 }
 
-/// Patterns or outputs of different widths, each with its place.
 pub fn uneven(what: &str, before: (usize, Span), here: (usize, Span)) -> Diagnostic {
     let message = format!("the {what} of a table differ in width");
     Diagnostic::new(Code::RowWidth, message, here.1, counted(here.0, "bit"))

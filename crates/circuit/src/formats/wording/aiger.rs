@@ -5,7 +5,7 @@ use std::fmt;
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic, counted};
 
-/// A place in a file. Gates of a binary file have no lines.
+/// Gates of a binary file have no lines.
 #[derive(Clone, Copy, Debug)]
 pub enum AigerPlace {
     Line(usize),
@@ -72,7 +72,6 @@ pub fn too_many_ports(at: AigerPlace) -> Diagnostic {
     damaged(format!("expected at most {most} inputs and {most} latches"), at)
 }
 
-/// Numbers of the inputs, latches and gates that do not agree with that of the variables.
 pub fn sum(numbers: [usize; 3], variables: usize, binary: bool, at: AigerPlace) -> Diagnostic {
     let relation = if binary { "must equal" } else { "exceed" };
     let [inputs, latches, gates] = numbers;

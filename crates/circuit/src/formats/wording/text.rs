@@ -8,7 +8,6 @@ pub(super) fn damaged(message: impl Into<String>, at: Span, label: impl Into<Str
     Diagnostic::new(Code::CircuitFile, message, at, label)
 }
 
-/// A name of the file that is too long; its beginning is shown.
 pub fn long_name(bytes: usize, at: Span) -> Diagnostic {
     let (beginning, most) = (Span { end: at.start + 20, ..at }, Limit::FileNameBytes.most());
     damaged(format!("name of {bytes} bytes is too long"), beginning, format!("expected at most {most}"))

@@ -10,7 +10,6 @@ use crate::synth::wide::CellNetwork;
 use crate::synth::wide::cuts::{Cut, cuts};
 use nbc_base::model::Function;
 
-/// Rounds in which the cut of each gate is chosen again.
 const ROUNDS: usize = 4;
 
 pub struct Coverer<'a> {
@@ -44,8 +43,7 @@ impl<'a> Coverer<'a> {
         self.prices[function.inputs() - 2][usize::from(function.bits())]
     }
 
-    /// What is to be small: the cost, then the slowest path in cycles; the other way round where the objective is the
-    /// delay.
+    /// The cost, then the slowest path in cycles; the other way round where the objective is the delay.
     pub fn weight(&self, network: &CellNetwork) -> (u32, u32) {
         let mut arrivals = vec![0; 2 + network.inputs];
         let mut cost = 0;
@@ -58,7 +56,7 @@ impl<'a> Coverer<'a> {
         if self.objective == MappingObjective::Delay { (slowest, cost) } else { (cost, slowest) }
     }
 
-    /// The network in cells. Gates of functions that the library cannot make in any way stay as they are.
+    /// Gates of functions that the library cannot make in any way stay as they are.
     pub fn cover(&self, network: &Network) -> CellNetwork {
         let swept = network.swept();
         let mut choice = Choice::new(self, &swept);
@@ -128,8 +126,7 @@ impl<'a> Choice<'a> {
         }
     }
 
-    /// Counts one reader more of a signal, and of those that its cell needs if it is the first; or one less, likewise.
-    /// Returns the cost of the cells that come or go.
+    /// One reader more or less of a signal, and of those that its cell needs; returns the cost that comes or goes.
     fn count(&mut self, signal: Signal, more: bool) -> u32 {
         let (mut cost, mut pending) = (0, vec![signal]);
         while let Some(signal) = pending.pop() {
@@ -145,7 +142,6 @@ impl<'a> Choice<'a> {
         cost
     }
 
-    /// The cost of the cells that a cut of an unused gate would take.
     fn exact(&mut self, gate: usize, at: usize) -> u32 {
         let (cut, price) = self.cuts[gate][at];
         let taken = self.take_leaves(cut);
@@ -163,8 +159,7 @@ impl<'a> Choice<'a> {
         }
     }
 
-    /// Chooses the cut of each gate again, in their order, by the cells that it takes with the other choices as they
-    /// are. Where the objective is the delay, no output becomes later.
+    /// In their order, with the other choices as they are. Where the objective is the delay, no output becomes later.
     fn choose_exactly(&mut self) {
         let first = 2 + self.network.inputs;
         let required = self.required();

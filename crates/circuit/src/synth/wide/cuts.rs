@@ -18,7 +18,6 @@ pub struct Cut {
 }
 
 impl Cut {
-    /// A signal itself, or a constant, which depends on no signal.
     fn of(signal: Signal) -> Self {
         match signal {
             0 => Self { leaves: [0; 3], count: 0, table: 0 },
@@ -31,8 +30,7 @@ impl Cut {
         &self.leaves[..self.count]
     }
 
-    /// The function of two or three inputs that it is of its leaves; a constant, and a function of one leaf, are
-    /// functions of two inputs.
+    /// Constants and functions of one leaf are functions of two inputs.
     pub fn function(&self) -> Function {
         if self.count == 3 {
             return Function::three(self.table);
@@ -42,7 +40,6 @@ impl Cut {
         Function::new(bits)
     }
 
-    /// The cut of a gate of two signals with these cuts, if it has no more than three leaves.
     fn joined(function: Function, [a, b]: [&Self; 2]) -> Option<Self> {
         let mut leaves = [0; 3];
         let mut count = 0;
@@ -76,7 +73,6 @@ impl Cut {
         (0..8).fold(0, |table, at| table | (self.table >> row(at) & 1) << at)
     }
 
-    /// The same without leaves on which it does not depend.
     fn reduced(self) -> Self {
         let shift = |input: usize| 4 >> input;
         let depends = |input: usize| (self.table >> shift(input) ^ self.table) & !INPUTS[input] != 0;

@@ -38,7 +38,7 @@ pub struct CellNetwork {
 }
 
 impl CellNetwork {
-    /// A network of gates, each of which is a cell. A function of the first input alone has one pin.
+    /// A function of the first input alone has one pin.
     pub fn of(network: &Network) -> Self {
         let cell = |gate: &Gate| {
             let used = if gate.function.depends_on(1) { 2 } else { 1 };
@@ -59,8 +59,7 @@ impl CellNetwork {
     }
 }
 
-/// The cells of a library for a network: those of two inputs if it has no others, else as few cells of both kinds, or
-/// as short paths, as the effort finds. `reduced` is the network in cells of two inputs.
+/// `reduced` is the network in cells of two inputs, and the result if the library has no others.
 pub fn widen(
     network: &Network,
     reduced: &Network,
@@ -122,7 +121,6 @@ pub fn widen(
     best
 }
 
-/// Gates of every function of two inputs, with inverters for nothing.
 fn any_gate() -> CellLibrary {
     let kind =
         |function: Function| CellKind { cost: u32::from(function != Function::NOT), ..CellKind::uniform(1, 1.0) };

@@ -149,7 +149,6 @@ impl<'a> Assembly<'a> {
     }
 }
 
-/// How deeply calls of `before` are nested.
 fn depth(expressions: &[tree::ExpressionSyntax], root: ExpressionSyntaxId) -> usize {
     let first = first_leaf(expressions, root) as usize;
     let is_before =

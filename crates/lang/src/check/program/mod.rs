@@ -78,7 +78,6 @@ struct Assembly<'a> {
     circuits: CircuitTable,
     /// By the places of their paths.
     rows: &'a BTreeMap<Span, FileId>,
-    /// The names inside circuits and tests.
     inner: Vec<NameUse>,
 }
 
@@ -115,7 +114,6 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Returns whether there was no diagnostic.
     fn note(&mut self, result: Result<(), Diagnostic>) -> bool {
         let fine = result.is_ok();
         self.faults.extend(result.err());
@@ -371,8 +369,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Warns of a file's own libraries that no swarm uses, if the file runs anything: its robots come from another
-    /// library.
+    /// Only if the file runs anything: its robots then come from another library.
     fn unused_libraries(&mut self) {
         let runs = |declaration: &tree::Declaration| {
             matches!(declaration.kind, DeclarationKind::Test(_) | DeclarationKind::Simulate(_))
@@ -411,7 +408,6 @@ impl<'a> Assembly<'a> {
         self.faults.extend(unused.map(|name| wording::unused("stimulus", &name.text, name.span)));
     }
 
-    /// Builds circuits to find errors of width, and reads the tests and simulations, which need the ports.
     fn build(&mut self, cancel: CancelFlag) -> Inspection {
         let mut program = std::mem::take(&mut self.program);
         let mut inspector = Inspector::new(&program, WorkBudget::until(cancel));

@@ -240,7 +240,6 @@ impl<'a> Assembly<'a> {
         (self.faults.len() == before).then_some((place, given))
     }
 
-    /// Warns of tests that only their lines tell apart.
     pub(super) fn same_titles(&mut self) {
         let mut known = BTreeMap::new();
         for (_, test) in self.declarations.own_tests() {
@@ -268,7 +267,6 @@ impl<'a> Assembly<'a> {
         named.map_err(|fault| self.faults.push(fault)).ok()
     }
 
-    /// The other circuit, and one with the ports of the tested circuit that calls it.
     fn against(
         &mut self,
         tested: &tree::InstanceSyntax,
@@ -305,8 +303,7 @@ impl<'a> Assembly<'a> {
         self.beside_ports(checked, tested, &instance.circuit)
     }
 
-    /// A checked circuit with the ports of another, named at `tested`, some of which it may ignore; `None` if it has
-    /// errors.
+    /// A checked circuit with the ports of another, named at `tested`, some of which it may ignore.
     pub(super) fn beside_ports(
         &mut self,
         checked: CheckedCircuit,
@@ -315,7 +312,6 @@ impl<'a> Assembly<'a> {
     ) -> Option<Circuit> {
         let sound = !self.declarations.is_broken(tested.span) && !checked.diagnostics.iter().any(Diagnostic::is_error);
         let called = checked.calls.iter().all(|&(callee, _)| self.circuits.is_sound(callee));
-        // Its ports are those of the tested circuit.
         let (ports, own): (Vec<_>, Vec<_>) = checked.uses.into_iter().partition(|found| found.declared == tested.span);
         let names: Vec<_> = ports
             .into_iter()
@@ -328,7 +324,6 @@ impl<'a> Assembly<'a> {
         (sound && called).then_some(checked.circuit)
     }
 
-    /// Rejects a test that would have too many rows.
     fn all_inputs(
         &mut self,
         (inputs, outputs): (&[Column], &[Column]),

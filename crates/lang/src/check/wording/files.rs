@@ -9,7 +9,6 @@ pub(crate) fn empty_file(file: &str, at: Span) -> Diagnostic {
         .with_help("declare a circuit: `circuit inverter(a) -> (q) { q = not a }`")
 }
 
-/// A file of a `use` or of rows.
 pub(crate) fn unreadable_use(file: &str, error: &FileError, meant: &Suggestion, at: Span) -> Diagnostic {
     Diagnostic::unreadable(file, error)
         .with_label(at, "used here")
@@ -17,7 +16,6 @@ pub(crate) fn unreadable_use(file: &str, error: &FileError, meant: &Suggestion, 
         .with_suggestion(None, meant)
 }
 
-/// A file that the value of a field names.
 pub(crate) fn unreadable_value(file: &str, error: &FileError, at: Span) -> Diagnostic {
     Diagnostic::unreadable(file, error)
         .with_label(at, "used here")
@@ -79,7 +77,6 @@ pub(crate) fn more_faults(file: &str, errors: usize, warnings: usize, at: Span) 
         .with_help("one fault may cause many others, so correct the first ones and check again")
 }
 
-/// A fault of a file that a program uses, with the place of the use.
 pub(crate) fn at_use(fault: Diagnostic, span: Span) -> Diagnostic {
     if fault.labels.is_empty() { fault.with_label(span, "used here") } else { fault.with_related(span, "used here") }
 }

@@ -12,7 +12,6 @@ pub(crate) fn unknown(kind: &str, name: &NameSyntax, meant: &Suggestion) -> Diag
     undeclared(kind, &name.text, name.span).with_suggestion(name.span, meant)
 }
 
-/// A call of an operator in capital letters.
 pub(crate) fn upper_case_operator(name: &NameSyntax) -> Diagnostic {
     let word = name.text.to_lowercase();
     undeclared("circuit", &name.text, name.span)
@@ -24,13 +23,11 @@ pub(crate) fn circuit_for_net(name: &NameSyntax, signature: &str) -> Diagnostic 
     undeclared("net", &name.text, name.span).with_help(format!("it is a circuit; call it with operands: `{signature}`"))
 }
 
-/// A truth value of another language.
 pub(crate) fn truth(word: &NameSyntax, bit: bool) -> Diagnostic {
     let bit = u8::from(bit).to_string();
     undeclared("net", &word.text, word.span).with_help(format!("write `{bit}`")).with_fix(Fix::replace(word.span, bit))
 }
 
-/// An unknown bit of another language.
 pub(crate) fn unknown_bit(word: &NameSyntax) -> Diagnostic {
     undeclared("net", &word.text, word.span)
         .with_help("a bit is `0` or `1`; the value for patterns that never occur is `-` in a `table`")
@@ -61,14 +58,12 @@ pub(crate) fn unknown_parameter(circuit: &str, name: &NameSyntax, meant: &Sugges
     Diagnostic::new(Code::Unknown, message, name.span, "not declared").with_suggestion(name.span, meant)
 }
 
-/// `kind` is `input` or `output`.
 pub(crate) fn unknown_port(circuit: &str, kind: &str, name: &NameSyntax, meant: &Suggestion) -> Diagnostic {
     let message = format!("`{circuit}` has no {kind} `{}`", name.text);
     Diagnostic::new(Code::Unknown, message, name.span, format!("no {kind} of that name"))
         .with_suggestion(name.span, meant)
 }
 
-/// An input where an output is expected, or the other way round.
 pub(crate) fn port_beside_bar(circuit: &str, kind: &str, name: &NameSyntax, other: &str) -> Diagnostic {
     let help = format!("it is an {other}; inputs stand before `|`, outputs after it");
     unknown_port(circuit, kind, name, &Suggestion::None).with_help(help)
@@ -90,7 +85,6 @@ pub(crate) fn duplicate(kind: &str, name: &NameSyntax, first: Span) -> Diagnosti
     if first.file == name.span.file { error.with_label(first, label) } else { error.with_related(first, label) }
 }
 
-/// A record that takes its fields from itself, perhaps through others.
 pub(crate) fn circular_record(kind: &str, name: &NameSyntax) -> Diagnostic {
     let message = format!("the {kind} `{}` takes its fields from itself", name.text);
     Diagnostic::new(Code::Recursion, message, name.span, "this closes the circle")

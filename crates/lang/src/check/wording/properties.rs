@@ -30,7 +30,6 @@ pub(crate) fn steps_within(text: &str, most: u64, at: Span) -> Diagnostic {
         .with_help("without `within`, a property holds in the same step")
 }
 
-/// `found` is the number of operands; `None` is a name for one.
 pub(crate) fn operands_of_before(found: Option<usize>, at: Span) -> Diagnostic {
     let found = found.map_or("a name".to_owned(), |found| found.to_string());
     Diagnostic::new(Code::Operands, "`before` takes one operand", at, format!("found {found}"))

@@ -4,7 +4,6 @@ use crate::syntax::tree::NameSyntax;
 use nbc_base::diag::{Code, Diagnostic, Fix, counted, suggest};
 use nbc_base::source::Span;
 
-/// The most bits of an example of a value.
 const SHOWN: usize = 16;
 
 /// `meant` is how the value is written in this language.

@@ -54,7 +54,6 @@ pub(crate) fn unknown_field(record: &str, field: &str, known: &[&str], meant: &S
     }
 }
 
-/// A field that needs one of these facts.
 pub(crate) fn idle_field(record: &str, field: &str, needs: &[Fact], at: Span) -> Diagnostic {
     let fact = |(field, word): &Fact| if word.is_empty() { (*field).to_owned() } else { format!("{field}: {word}") };
     let facts = suggest::alternatives(&needs.iter().map(fact).collect::<Vec<_>>(), "or");
@@ -88,7 +87,6 @@ pub(crate) fn missing_unit(number: &str, wanted: &[&str], at: Span) -> Diagnosti
     with_unit(error, number, wanted, Fix::insert(after, format!(" {}", wanted[0])))
 }
 
-/// A unit of something else.
 pub(crate) fn wrong_unit(number: &str, unit: &str, wanted: &[&str], meant: &Suggestion, at: Span) -> Diagnostic {
     let error = Diagnostic::new(Code::Unit, format!("wrong unit `{unit}`"), at, units(wanted));
     match meant {
@@ -146,7 +144,6 @@ pub(crate) fn infinite(found: &str, at: Span) -> Diagnostic {
     out_of_range(found, "a smaller number", at)
 }
 
-/// A width of a voxel.
 pub(crate) fn width_outside(found: f64, least: f64, most: f64, at: Span) -> Diagnostic {
     real_outside(found, least, most, at).with_help("actuation is given as a share of the width at rest")
 }
@@ -162,7 +159,6 @@ pub(crate) fn large_number(bits: u32, at: Span) -> Diagnostic {
     Diagnostic::new(Code::OutOfRange, "number is too large", at, format!("expected at most {bits} bits"))
 }
 
-/// A member of an enumeration where an integer is expected.
 pub(crate) fn wide_member(member: &str, at: Span) -> Diagnostic {
     let message = format!("the value of `{member}` is too large for a number");
     Diagnostic::new(Code::OutOfRange, message, at, "expected at most 127 bits")

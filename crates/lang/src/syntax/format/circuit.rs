@@ -116,7 +116,6 @@ pub(super) fn places(pieces: &[LayoutPiece]) -> impl Iterator<Item = u32> {
     })
 }
 
-/// The text before the `=` or the block of a statement.
 fn left(body: &BodySyntax, statement: &StatementSyntax) -> String {
     let sizes = &body.sizes;
     match &statement.kind {

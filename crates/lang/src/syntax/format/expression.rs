@@ -204,7 +204,6 @@ fn table(written: Written, id: ExpressionSyntaxId, pieces: &mut Vec<LayoutPiece>
 
 struct RowLines<'a> {
     written: Written<'a>,
-    /// The end of the last line in the source.
     at: u32,
     count: usize,
 }
@@ -254,7 +253,6 @@ fn size_chain(sizes: &[SizeSyntax], id: SizeSyntaxId) -> String {
     text
 }
 
-/// `[3]` or `[3..0]`
 pub(super) fn index(body: &BodySyntax, index: &Index) -> String {
     let sizes = &body.sizes;
     match index.kind {
@@ -267,7 +265,6 @@ pub(super) fn index(body: &BodySyntax, index: &Index) -> String {
     }
 }
 
-/// `[8, start = 1]` or nothing
 pub(super) fn arguments(sizes: &[SizeSyntax], arguments: &[Argument]) -> String {
     let one = |argument: &Argument| {
         let value = size(sizes, argument.value);

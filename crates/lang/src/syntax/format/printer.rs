@@ -9,9 +9,7 @@ pub(super) const INDENT: usize = 4;
 pub(super) struct Printer<'a> {
     source: &'a str,
     comments: &'a [Span],
-    /// The first comment that is not yet printed.
     next: usize,
-    /// Comments that are printed inside a piece of text.
     placed: BTreeSet<u32>,
     out: String,
     pub(super) indent: usize,
@@ -54,22 +52,18 @@ impl<'a> Printer<'a> {
         self.out[line..].chars().count()
     }
 
-    /// Requests a blank line before the next item.
     pub(super) fn separate(&mut self, separate: bool) {
         self.separate |= separate && self.last.is_some();
     }
 
-    /// Requests a blank line after the last printed item.
     pub(super) fn separate_next(&mut self, separate: bool) {
         self.separate = separate;
     }
 
-    /// Prints an item with the comments before it, inside it, and after it on its line.
     pub(super) fn item(&mut self, span: Span, print: impl FnOnce(&mut Self)) {
         self.item_with_inside(span, span.end, print);
     }
 
-    /// Prints an item that itself prints the comments after `head`.
     pub(super) fn item_with_inside(&mut self, span: Span, head: u32, print: impl FnOnce(&mut Self)) {
         // A comment directly after the opening brace belongs to the block.
         let brace = self.source[span.start as usize..head as usize].rfind('{').filter(|_| head != span.end);
@@ -136,12 +130,10 @@ impl<'a> Printer<'a> {
         (self.source, self.comments)
     }
 
-    /// Marks comments that are inside a piece of text.
     pub(super) fn place(&mut self, starts: impl IntoIterator<Item = u32>) {
         self.placed.extend(starts);
     }
 
-    /// Prints the next comment if it follows the last printed item on its line.
     fn comment_behind(&mut self) {
         let (Some(last), Some(comment)) = (self.last, self.comments.get(self.next)) else { return };
         let between = self.source.get(last as usize..comment.start as usize);
@@ -153,7 +145,6 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// Whether no blank line and no comment line is between two items.
     pub(super) fn adjacent(&self, first: Span, second: Span) -> bool {
         let between = &self.source[first.end as usize..second.start as usize];
         between.bytes().filter(|&byte| byte == b'\n').count() <= 1

@@ -167,7 +167,6 @@ fn value(value_: &ValueSyntax) -> String {
     }
 }
 
-/// `10 cycles` or `90%`
 pub(super) fn quantity(quantity: &Quantity) -> String {
     match &quantity.unit {
         Some(unit) if unit.text == "%" => format!("{}%", quantity.number.text),
@@ -176,7 +175,6 @@ pub(super) fn quantity(quantity: &Quantity) -> String {
     }
 }
 
-/// `add[8]`
 pub(super) fn instance(instance: &InstanceSyntax) -> String {
     format!("{}{}", instance.name.text, arguments(&instance.sizes, &instance.arguments))
 }

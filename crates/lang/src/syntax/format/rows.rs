@@ -125,12 +125,10 @@ fn even_rows<'t>(items: &'t [TestItem], rows: &mut Vec<&'t TestRowSyntax>) {
     }
 }
 
-/// `in slippery `
 fn in_world(world: Option<&NameSyntax>) -> String {
     world.map_or(String::new(), |world| format!("in {} ", world.text))
 }
 
-/// `light, digit[8][8]`
 pub(super) fn stimuli(stimuli: &[StimulusSyntax]) -> String {
     let one = |stimulus: &StimulusSyntax| match &stimulus.image {
         Some([rows, columns]) => format!("{}[{}][{}]", stimulus.name.text, rows.text, columns.text),

@@ -5,7 +5,6 @@ use nbc_base::source::Span;
 
 use crate::syntax::tree::{ExpressionSyntax, ExpressionSyntaxId, Index, NameSyntax, SizeSyntax, SizeSyntaxId};
 
-/// `circuit half_adder(a, b) -> (s, c) { … }`
 #[derive(Clone, Debug, PartialEq)]
 pub struct CircuitSyntax {
     pub is_environment: bool,
@@ -26,7 +25,6 @@ pub struct BodySyntax {
     pub sizes: Vec<SizeSyntax>,
 }
 
-/// `n` or `start = 0`
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterSyntax {
     pub name: NameSyntax,
@@ -37,11 +35,9 @@ pub struct ParameterSyntax {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Port {
     pub name: NameSyntax,
-    /// Of an array.
     pub words: Option<SizeSyntaxId>,
     /// In bits; of an array, the width of a word.
     pub width: Option<SizeSyntaxId>,
-    /// The enumeration of its values: `state: phase`.
     pub members: Option<NameSyntax>,
     /// The value of an input that a call leaves out: `enable = 1`.
     pub absent: Option<SizeSyntaxId>,
@@ -63,15 +59,12 @@ pub struct StatementSyntax {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum StatementKind {
-    /// `q init 0 = nand(s, nq)`
     Drive {
         targets: Vec<TargetSyntax>,
         grouping: Grouping,
         value: ExpressionSyntaxId,
     },
-    /// `net c[9]`
     Nets(Vec<Port>),
-    /// `for i in 0..8 { … }`
     For {
         variable: NameSyntax,
         from: SizeSyntaxId,
@@ -83,7 +76,6 @@ pub enum StatementKind {
         name: NameSyntax,
         value: SizeSyntaxId,
     },
-    /// `if n == 1 { … } else { … }`
     If {
         left: SizeSyntaxId,
         comparison: Relation,
@@ -97,7 +89,6 @@ pub enum StatementKind {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Grouping {
-    /// `a = …`
     Single,
     /// `(a, b) = …`: the outputs of a call.
     Outputs,
@@ -107,12 +98,9 @@ pub enum Grouping {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetSyntax {
-    /// The net, or `_`.
     pub name: NameSyntax,
     pub index: Option<Index>,
-    /// The bits of the word.
     pub second: Option<Index>,
-    /// The value before the first cycle: `init 0`.
     pub start: Option<SizeSyntaxId>,
     pub span: Span,
 }

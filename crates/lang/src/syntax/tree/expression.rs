@@ -13,27 +13,22 @@ pub struct ExpressionSyntax {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExpressionSyntaxKind {
-    /// Without a width.
     Digits(String),
-    /// `4'b1010`
     Constant {
         width: SizeSyntaxId,
         /// `b`, `d` or `h`.
         base: char,
         digits: String,
     },
-    /// `n'd(i + 1)`
     Computed {
         width: SizeSyntaxId,
         value: SizeSyntaxId,
     },
-    /// `a`, `a[3]`, `a[3..0]`
     Net {
         name: NameSyntax,
         index: Option<Index>,
         second: Option<Index>,
     },
-    /// `add[8](a, b)`
     Call {
         name: NameSyntax,
         arguments: Vec<Argument>,
@@ -41,7 +36,6 @@ pub enum ExpressionSyntaxKind {
     },
     Group(ExpressionSyntaxId),
     Concatenation(Vec<ExpressionSyntaxId>),
-    /// `{4{a, b}}`
     Repetition {
         count: SizeSyntaxId,
         values: Vec<ExpressionSyntaxId>,
@@ -57,13 +51,11 @@ pub enum ExpressionSyntaxKind {
         operator: nbc_base::model::Operator,
         operands: Vec<ExpressionSyntaxId>,
     },
-    /// `if c then a else b`
     Choice {
         condition: ExpressionSyntaxId,
         then: ExpressionSyntaxId,
         otherwise: ExpressionSyntaxId,
     },
-    /// `table(a, b) { 00: 1, else: 0 }` or `match a { 0: 1, else: 0 }`
     Table {
         is_match: bool,
         inputs: Vec<ExpressionSyntaxId>,
@@ -71,7 +63,6 @@ pub enum ExpressionSyntaxKind {
     },
 }
 
-/// `a` or `enable: a`
 #[derive(Clone, Debug, PartialEq)]
 pub struct OperandSyntax {
     pub name: Option<NameSyntax>,
@@ -89,7 +80,6 @@ pub struct TableRowSyntax {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum TableOutputSyntax {
-    /// `0-1`
     Bits(NameSyntax),
     Value(ExpressionSyntaxId),
 }

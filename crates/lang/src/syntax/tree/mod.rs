@@ -30,7 +30,6 @@ pub struct Tree {
     pub comments: Vec<Span>,
 }
 
-/// A declaration, statement, field or row that could not be parsed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BrokenSyntax {
     pub span: Span,
@@ -45,14 +44,11 @@ pub struct Declaration {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum DeclarationKind {
-    /// `use "file.nb"`, or several files
     Use(Vec<Text>),
-    /// `stimulus s1, s2`, or of an image `stimulus digit[8][8]`
     Stimulus(Vec<StimulusSyntax>),
     Record(RecordDeclaration),
     Schedule(ScheduleSyntax),
     Simulate(Simulate),
-    /// `circuit` or `environment`
     Circuit(CircuitSyntax),
     Enumeration(EnumerationSyntax),
     Let(LetSyntax),
@@ -75,7 +71,6 @@ pub struct Text {
     pub span: Span,
 }
 
-/// `enum phase: gray { fetch, execute }`
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnumerationSyntax {
     pub name: NameSyntax,
@@ -83,14 +78,12 @@ pub struct EnumerationSyntax {
     pub members: Vec<MemberSyntax>,
 }
 
-/// `fetch` or `load = 5'b00000`
 #[derive(Clone, Debug, PartialEq)]
 pub struct MemberSyntax {
     pub name: NameSyntax,
     pub value: Option<NameSyntax>,
 }
 
-/// `let n = 8`
 #[derive(Clone, Debug, PartialEq)]
 pub struct LetSyntax {
     pub name: NameSyntax,
@@ -98,10 +91,8 @@ pub struct LetSyntax {
     pub sizes: Vec<SizeSyntax>,
 }
 
-/// `file program = "hello.hex"`
 #[derive(Clone, Debug, PartialEq)]
 pub struct FileSyntax {
-    /// What memories and the command line call the file.
     pub name: NameSyntax,
     /// The command line may name another file.
     pub path: Text,

@@ -5,7 +5,6 @@ use nbc_base::source::Span;
 
 use crate::syntax::tree::{BodySyntax, ExpressionSyntaxId, InstanceSyntax, NameSyntax, Number, Text};
 
-/// `prove lights "never both green" { … }`
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prove {
     pub circuit: InstanceSyntax,
@@ -16,7 +15,6 @@ pub struct Prove {
     pub body: BodySyntax,
 }
 
-/// `always a => b within 8 steps`
 #[derive(Clone, Debug, PartialEq)]
 pub struct PropertySyntax {
     pub kind: PropertyKind,

@@ -44,7 +44,6 @@ pub struct RecordDeclaration {
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordSyntax {
     pub fields: Vec<Field>,
-    /// With the braces.
     pub span: Span,
 }
 
@@ -68,21 +67,13 @@ pub struct ValueSyntax {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum ValueKind {
-    /// `{ name: value, … }`
     Record(RecordSyntax),
-    /// `[value, …]`
     List(Vec<ValueSyntax>),
-    /// `"text"`
     Text(String),
-    /// `84 steps`
     Quantity(Quantity),
-    /// `0.6..1.6`
     Range(Quantity, Quantity),
-    /// `5 x 5`
     Product(Number, Number),
-    /// `voxels in 4 bins`
     Bins(NameSyntax, Number),
-    /// `pareto(8)`
     Applied(NameSyntax, Vec<ValueSyntax>),
     /// A word, or a circuit with its parameters.
     Instance(InstanceSyntax),
@@ -90,7 +81,6 @@ pub enum ValueKind {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Number {
-    /// With sign and point.
     pub text: String,
     pub span: Span,
 }
@@ -98,7 +88,6 @@ pub struct Number {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Quantity {
     pub number: Number,
-    /// Such as `cycles` or `%`.
     pub unit: Option<NameSyntax>,
 }
 
@@ -117,7 +106,6 @@ pub struct InstanceSyntax {
     pub sizes: Vec<SizeSyntax>,
 }
 
-/// `schedule sweep(s1, s2) { … }`
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScheduleSyntax {
     pub name: NameSyntax,
@@ -125,7 +113,6 @@ pub struct ScheduleSyntax {
     pub spells: Vec<SpellSyntax>,
 }
 
-/// `0 1 for 10 cycles`
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpellSyntax {
     pub cells: Vec<NameSyntax>,

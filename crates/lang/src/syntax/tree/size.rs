@@ -12,17 +12,14 @@ pub struct ExpressionSyntaxId(pub u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SizeSyntaxId(pub u32);
 
-/// The bits of a net: `[3]` or `[3..0]`; the word of an array: `[3]` or `[address]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Index {
     pub kind: IndexKind,
-    /// With the brackets.
     pub span: Span,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum IndexKind {
-    /// `[3]`
     One(SizeSyntaxId),
     /// `[3..0]`: the highest and the lowest.
     Slice(SizeSyntaxId, SizeSyntaxId),
@@ -45,7 +42,6 @@ pub enum SizeSyntaxKind {
     Binary(nbc_base::model::SizeOperator, SizeSyntaxId, SizeSyntaxId),
 }
 
-/// `8` or `start = 1`
 #[derive(Clone, Debug, PartialEq)]
 pub struct Argument {
     pub name: Option<NameSyntax>,

@@ -4,7 +4,6 @@ use nbc_base::source::Span;
 
 use crate::syntax::tree::{BodySyntax, InstanceSyntax, NameSyntax, Number, Quantity, SpellSyntax, Text};
 
-/// `simulate latch with …`
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulate {
     pub swarm: NameSyntax,
@@ -14,19 +13,15 @@ pub struct Simulate {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum With {
-    /// `with sweep`
     Named(NameSyntax),
-    /// `with schedule (d, e) { … }`
     Spells { columns: Vec<NameSyntax>, spells: Vec<SpellSyntax> },
 }
 
-/// `test latch "…" …`
 #[derive(Clone, Debug, PartialEq)]
 pub struct Test {
     pub circuit: InstanceSyntax,
     pub title: Option<Text>,
     pub environment: Option<NameSyntax>,
-    /// `in slippery` or `in [paper, worn]`
     pub worlds: Vec<NameSyntax>,
     pub kind: TestKind,
 }
@@ -34,17 +29,13 @@ pub struct Test {
 #[derive(Clone, Debug, PartialEq)]
 pub enum TestKind {
     Table(TestTable),
-    /// `from "rows.csv" at least 93%`
     FromFile {
         /// Relative to the folder of the source.
         path: Text,
         at_least: Option<Quantity>,
     },
-    /// `for all inputs against other`
     Against(InstanceSyntax),
-    /// `against other for ever`
     Ever(InstanceSyntax),
-    /// `for all inputs { … }`
     Reference(Box<BodySyntax>),
 }
 
@@ -59,7 +50,6 @@ pub struct TestTable {
 #[derive(Clone, Debug, PartialEq)]
 pub enum TestItem {
     Row(Box<TestRowSyntax>),
-    /// `repeat 32 { … }`
     Repeat {
         times: Number,
         rows: Vec<TestItem>,
@@ -77,7 +67,6 @@ impl TestItem {
     }
 }
 
-/// `until ready, at most 100 rows`
 #[derive(Clone, Debug, PartialEq)]
 pub struct UntilSyntax {
     pub output: NameSyntax,

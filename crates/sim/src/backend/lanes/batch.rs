@@ -35,7 +35,6 @@ pub struct Round<R: Real> {
 /// The masses at the ends of the sides of a voxel: top, right, bottom, left.
 pub type VoxelSides = [[usize; 2]; CORNERS];
 
-/// One lane's robot, with its points and voxels as masses of the batch.
 #[derive(Clone, Debug)]
 pub struct Occupant {
     pub masses: Vec<usize>,
@@ -56,10 +55,8 @@ pub struct SurfaceVoxel {
     pub part: usize,
 }
 
-/// Robots in lanes, one robot each.
 #[derive(Debug)]
 pub struct Batch<R: Real, K: Stiffness<R>> {
-    /// One env step, compiled for these numbers.
     pub step: fn(&mut Self),
     pub constants: Constants,
     pub floor: Floor,
@@ -78,7 +75,6 @@ pub struct Batch<R: Real, K: Stiffness<R>> {
     pub touching: Touching,
 }
 
-/// The parameters of a batch besides its robots.
 #[derive(Clone, Copy)]
 pub struct Ground<'a> {
     pub constants: &'a Constants,
@@ -88,28 +84,23 @@ pub struct Ground<'a> {
 
 #[derive(Clone, Debug)]
 pub enum Floor {
-    /// So many ground voxels in a row.
     Flat(usize),
     Terrain(Arc<Terrain>),
 }
 
-/// What may touch in a substep. Kept between substeps for its memory only.
+/// Kept between substeps for its memory only.
 #[derive(Debug, Default)]
 pub struct Touching {
-    /// Surface masses at or below the surface of a flat floor.
     pub low: Vec<LowPoint>,
     /// Surface voxels close to voxels of the terrain, by tile and then by voxel of the terrain.
     pub near: Vec<NearTerrain>,
-    /// Masses inside voxels that are not theirs.
     pub inside: Vec<Inside>,
-    /// Voxels of one lane at a low mass.
     pub voxels: Vec<usize>,
 }
 
 #[derive(Clone, Debug)]
 pub struct Row {
     pub masses: Range<usize>,
-    /// The frames whose upper masses are in it.
     pub frames: Range<usize>,
 }
 
@@ -121,7 +112,6 @@ fn key(point: LatticePoint) -> Key {
 }
 
 impl<R: Real, K: Stiffness<R>> Batch<R, K> {
-    /// Lays out robots, one a lane, over the union of their boxes.
     pub fn new(robots: &[(&Lattice, &State)], ground: Ground<'_>, step: fn(&mut Self)) -> Self {
         let Ground { constants, floor, meter } = ground;
         let stopwatch = meter.map(Stopwatch::new);
@@ -255,7 +245,6 @@ impl<R: Real> Round<R> {
     }
 }
 
-/// The masses at the ends of a voxel's top and left side, if these are not between its corners.
 fn strays(voxel: &Voxel, masses: &[usize]) -> Option<[[usize; 2]; 2]> {
     voxel.strays.map(|sides| sides.map(|ends| ends.map(|point| masses[point])))
 }

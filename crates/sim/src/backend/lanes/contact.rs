@@ -24,7 +24,6 @@ pub struct Quad {
     pub corners: [Vector2<f64>; CORNERS],
     pub surface: [bool; CORNERS],
     pub bounds: [Vector2<f64>; 2],
-    /// Bounds outside of which a point is clearly outside.
     reach: [Vector2<f64>; 2],
     /// The ends of its top and its left side, if these are not between its corners.
     strays: Option<[[Vector2<f64>; 2]; 2]>,
@@ -43,8 +42,7 @@ pub struct Hit {
 /// The two sides at each corner, in the order in which they are tested.
 const MEETING: [[usize; 2]; CORNERS] = [[0, 3], [0, 1], [2, 1], [2, 3]];
 
-/// Whether `point` is inside the voxel with these corners: the triangle above its falling diagonal or the one below
-/// (docs/physics.md 7.2).
+/// In the triangle above its falling diagonal or in the one below (docs/physics.md 7.2).
 #[inline(always)]
 pub fn is_inside<R: Real>(point: [R; 2], corners: [[R; 2]; CORNERS]) -> R::Mask {
     let from = |corner: [R; 2]| [corner[0] - point[0], corner[1] - point[1]];
@@ -88,8 +86,7 @@ impl Quad {
         self.ends(side).map(|corner| self.corners[corner])
     }
 
-    /// Whether a point is so far outside that [`Quad::contains`] can be skipped. That test is true everywhere on the
-    /// line of the falling diagonal, even far outside.
+    /// [`Quad::contains`] is true everywhere on the line of the falling diagonal, even far outside.
     #[inline(always)]
     fn is_clear_of(&self, point: Vector2<f64>) -> bool {
         let [least, greatest] = self.reach;
@@ -137,8 +134,7 @@ impl Quad {
     }
 }
 
-/// Whether segment `first` (of the main voxel) and segment `second` (of the reference) have a point in common; never
-/// when nearly parallel.
+/// Whether a segment of the main voxel and one of the reference have a common point; never when nearly parallel.
 fn crosses(first: [Vector2<f64>; 2], second: [Vector2<f64>; 2], constants: &Constants) -> bool {
     let (d1, d2) = (first[1] - first[0], second[1] - second[0]);
     let q = second[0] - first[0];

@@ -14,7 +14,6 @@ use nbc_base::model::{Fault, FaultKind};
 pub struct LaneGroup {
     /// The points of those in a lane are read with [`LaneGroup::state`].
     pub runs: Vec<Run>,
-    /// The run in each lane of the batch.
     lanes: Vec<usize>,
     batch: Option<Box<dyn LaneBatch>>,
     targets: Vec<f64>,
@@ -44,8 +43,7 @@ impl LaneGroup {
         }
     }
 
-    /// Simulates until the first of the runs that had something to do is done, calling `record` with each of them after
-    /// each of its env steps.
+    /// Until the first run that had something to do is done. Calls `record` with each run after each of its env steps.
     pub fn advance(&mut self, world: &World, mut record: impl FnMut(usize, &Run)) {
         if world.is_stopped() {
             return self.stop();
@@ -87,7 +85,6 @@ impl LaneGroup {
         self.unload();
     }
 
-    /// Puts runs with a schedule into lanes, unless they are already there.
     fn load(&mut self, world: &World) {
         let is_loaded = self.batch.is_some() && self.lanes.iter().all(|&run| !self.runs[run].is_done());
         if is_loaded {

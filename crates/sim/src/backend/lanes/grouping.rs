@@ -28,10 +28,8 @@ pub struct LaneGrouping {
 
 impl LaneGrouping {
     /// A good division into groups of at most `lanes` robots. A group costs what the union of its robots' voxels does.
-    ///
-    /// Robots are sorted by box, large ones first, within a box rare bodies before frequent ones, and then by voxels.
-    /// The groups are the cheapest of consecutive robots, so lanes next to large robots go to unique bodies, and equal
-    /// bodies stay together, which is faster. Then near groups exchange robots where that makes them cheaper.
+    /// Sorted by box, large ones first, rare bodies before frequent ones, then by voxels: equal bodies stay together.
+    /// Groups are the cheapest of consecutive robots; then near groups exchange robots where that makes them cheaper.
     pub fn of(robots: &[LaneRequest], kernel: Kernel, lanes: usize) -> Self {
         let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
         for robot in robots {
@@ -60,7 +58,6 @@ impl LaneGrouping {
 struct Costs {
     kernel: Kernel,
     bodies: Vec<usize>,
-    /// The voxels of each robot as bits of a box that holds each of them.
     voxels: Vec<Vec<u64>>,
 }
 
@@ -105,8 +102,7 @@ impl Costs {
         groups
     }
 
-    /// Exchanges two robots of neighboring groups wherever both groups together are cheaper then; returns whether any
-    /// were.
+    /// Exchanges robots of neighboring groups where both together become cheaper; returns whether it did.
     fn exchange(&self, groups: &mut [Vec<usize>]) -> bool {
         let mut costs: Vec<u64> = groups.iter().map(|group| self.of(group.iter().copied())).collect();
         let mut found = false;

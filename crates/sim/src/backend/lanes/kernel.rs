@@ -19,8 +19,7 @@ use crate::state::State;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum InstructionSet {
-    /// The instruction set of every processor of the target: SSE2 on x86-64, NEON on ARM, that which WebAssembly was
-    /// compiled for.
+    /// SSE2 on x86-64, NEON on ARM, that which WebAssembly was compiled for.
     Baseline,
     /// AVX2 of x86-64: four numbers in a register.
     Avx2,
@@ -68,8 +67,7 @@ impl InstructionSet {
         }
     }
 
-    /// The most lanes of a kernel: more would be several vectors, or not fit into the registers that engines of
-    /// WebAssembly give to a function. Of other processors that was not measured.
+    /// More would be several vectors, or not fit into the registers that engines of WebAssembly give to a function.
     fn most_lanes(self) -> usize {
         let by_vector = cfg!(any(target_arch = "x86_64", target_family = "wasm"));
         if by_vector && self != Self::Avx512 { 4 } else { 8 }
@@ -89,9 +87,8 @@ impl Kernel {
 
     pub const SCALAR: Self = Self { set: InstructionSet::Baseline, lanes: 1 };
 
-    /// A kernel of `lanes` lanes, 1, 4 or 8; `None` when the processor lacks the instructions, or when so many lanes
-    /// are several vectors, which are no faster together than one after the other.
-    /// Panics when there is no kernel of so many lanes.
+    /// `None` when the processor lacks the instructions, or so many lanes are several vectors, which are no faster.
+    /// Panics unless `lanes` is 1, 4 or 8.
     pub fn new(set: InstructionSet, lanes: usize) -> Option<Self> {
         assert!(Self::WIDTHS.contains(&lanes), "kernels have 1, 4 or 8 lanes");
         (set.is_available() && lanes <= set.most_lanes()).then_some(Self { set, lanes })
@@ -103,8 +100,7 @@ impl Kernel {
         Self { set, lanes }
     }
 
-    /// The cost of a substep of this many robots per voxel of any of them: 100 for eight different bodies with AVX-512
-    /// (docs/performance.md). `alike` means that all have the same body.
+    /// Per voxel of any robot: 100 for eight different bodies with AVX-512 (docs/performance.md). `alike`: one body.
     pub(crate) fn cost(self, robots: usize, alike: bool) -> u64 {
         let (different, same) = match (self.set, robots) {
             (_, 1) => (51, 51),
@@ -124,8 +120,7 @@ impl Kernel {
         self.set
     }
 
-    /// Lays out at most [`Kernel::lanes`] robots, in no more lanes than needed. `alike` means that all have the same
-    /// body.
+    /// In no more lanes than needed. `alike` means that all have the same body.
     pub(crate) fn batch(self, robots: &[(&Lattice, &State)], alike: bool, ground: Ground<'_>) -> Box<dyn LaneBatch> {
         assert!(robots.len() <= self.lanes, "a robot for each lane at most");
         match (self.set, robots.len(), alike) {

@@ -8,7 +8,6 @@ use crate::backend::lanes::stiffness::Stiffness;
 use crate::meter::Part;
 use crate::state::State;
 
-/// Robots in lanes, one in each.
 pub trait LaneBatch: Debug + Send {
     fn env_step(&mut self);
     /// Sets the targets of a lane's channels: fractions of the rest width or height (docs/physics.md 4).
@@ -17,7 +16,6 @@ pub trait LaneBatch: Debug + Send {
     fn center(&self, lane: usize) -> [f64; 2];
     /// Lanes that became unstable, as bits.
     fn unstable(&self) -> u32;
-    /// Saves all states, in case the next env step has to be undone.
     fn save(&mut self);
     fn unload(&self, lane: usize, state: &mut State);
     /// Reads a lane's points as they were at the last [`LaneBatch::save`].

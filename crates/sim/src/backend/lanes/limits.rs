@@ -11,8 +11,6 @@ use crate::lattice::CORNERS;
 impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     /// First pass, all edges at once: an edge of length d beyond its bound moves its ends by 0.8 r excess / (2 d). A
     /// row's masses move when the springs of the row are done, because then all edges at them have been measured.
-    ///
-    /// Squared lengths are compared, so a root is needed only if a limit is exceeded.
     // Engines of WebAssembly give functions of that size few registers.
     #[cfg_attr(not(target_family = "wasm"), inline(always))]
     #[cfg_attr(target_family = "wasm", inline(never))]
@@ -85,7 +83,6 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     }
 }
 
-/// The corners of one voxel in each lane.
 #[inline(always)]
 fn gather<R: Real>(masses: &[Mass<R>], voxels: &[([usize; CORNERS], R::Mask)]) -> [Vector<R>; CORNERS] {
     let mut at = [[R::splat(0.0); 2]; CORNERS];
@@ -125,7 +122,6 @@ impl<R: Real> Rigid<R> {
         Self { bounds: Bounds::between(least, most), share: constants.rigid_correction }
     }
 
-    /// The limits of voxels with sides that are not between their corners, side by side.
     #[inline(never)]
     fn limit_strays(self, masses: &mut [Mass<R>], voxels: &[(VoxelSides, R::Mask)], lanes: R::Mask) {
         for side in 0..CORNERS {
@@ -148,7 +144,6 @@ impl<R: Real> Rigid<R> {
         }
     }
 
-    /// Corrects the ends of a side that is at or beyond a bound; returns whether it was in any lane.
     #[inline(always)]
     fn pull_back<const FROM: usize, const TO: usize>(self, at: &mut [Vector<R>; CORNERS], lanes: R::Mask) -> bool {
         let r = between(at[FROM], at[TO]);
@@ -193,7 +188,6 @@ impl<R: Real> Bounds<R> {
     }
 }
 
-/// Computes the corrections of a spring's ends if its length is beyond its bounds.
 #[inline(always)]
 fn pull_back<R: Real>(masses: &mut [Mass<R>], ends: [usize; 2], bounds: &Bounds<R>, bites: R::Mask, share: f64) {
     let r = between(masses[ends[0]].at, masses[ends[1]].at);

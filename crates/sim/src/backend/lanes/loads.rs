@@ -10,8 +10,7 @@ use crate::backend::lanes::real::{Mask, Real};
 pub struct Loads<R: Real> {
     /// The load of each mass: an index of `values`.
     pub of_mass: Vec<u32>,
-    /// Gravity in the lanes that have a mass, for each set of lanes that occurs; then gravity and contact of each mass
-    /// in contact.
+    /// Gravity for each set of lanes that occurs; then gravity and contact of each mass in contact.
     pub values: Vec<Vector<R>>,
     /// The number of `values` that are only gravity.
     weights: usize,
@@ -20,8 +19,7 @@ pub struct Loads<R: Real> {
 }
 
 impl<R: Real> Loads<R> {
-    /// The weights of masses without contact. `lanes` has the lanes of each mass, as bits; `gravity` is in meters per
-    /// substep squared.
+    /// `lanes` has the lanes of each mass, as bits; `gravity` is in meters per substep squared.
     pub fn new(lanes: &[u32], gravity: f64) -> Self {
         let (zero, gravity) = (R::splat(0.0), R::splat(-gravity));
         let kinds: BTreeSet<u32> = lanes.iter().copied().collect();

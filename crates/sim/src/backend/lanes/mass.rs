@@ -14,11 +14,9 @@ pub struct Mass<R> {
     pub stage: Vector<R>,
     pub stage_velocity: Vector<R>,
     pub sum: Vector<R>,
-    /// Force so far in the current stage.
     pub force: Vector<R>,
 }
 
-/// The vector from `there` to `here`.
 #[inline(always)]
 pub fn between<R: Real>(here: Vector<R>, there: Vector<R>) -> Vector<R> {
     [here[0] - there[0], here[1] - there[1]]
@@ -80,7 +78,6 @@ impl<R: Real> Masses<R> {
         }
     }
 
-    /// Saves all states, in case the next env step has to be undone.
     pub fn save(&mut self) {
         self.saved.clear();
         self.saved.extend(self.now.iter().zip(&self.before).map(|(mass, &before)| [mass.at, before, mass.velocity]));

@@ -34,9 +34,7 @@ pub struct Proximity<R: Real> {
     points: Vec<usize>,
     /// The positions when the lists were built; infinitely far before the first time.
     reference: Vec<Vector<R>>,
-    /// Points near a tile that is not theirs.
     near_points: Vec<NearPoint>,
-    /// Pairs of tiles near each other but not neighbors.
     near_tiles: Vec<NearTiles>,
     /// For each lane the number of surface voxels of each part, or zero for a part that cannot be unstable.
     countable: Vec<Vec<u32>>,
@@ -64,7 +62,6 @@ pub struct LowPoint {
     pub lanes: u32,
 }
 
-/// A surface voxel close to a voxel of the terrain.
 #[derive(Clone, Copy, Debug)]
 pub struct NearTerrain {
     pub tile: usize,
@@ -88,8 +85,7 @@ impl<R: Real> Proximity<R> {
         Self { tiles, points, reference, near_points: Vec::new(), near_tiles: Vec::new(), countable, suspects: 0 }
     }
 
-    /// Lists the points at or below `height`. Returns whether a point has moved so far that the other lists have to be
-    /// renewed.
+    /// Returns whether a point has moved so far that the other lists have to be renewed.
     #[inline(always)]
     pub fn survey(&self, masses: &[Mass<R>], height: f64, low: &mut Vec<LowPoint>) -> bool {
         let height = R::splat(height);
@@ -146,7 +142,6 @@ impl<R: Real> Proximity<R> {
         }
     }
 
-    /// Whether an overlap of two tiles counts for the instability of a robot.
     fn can_count(&self, tile: &Tile, other: &Tile) -> bool {
         let is_active = |countable: &Vec<u32>| countable.get(tile.part).is_some_and(|&count| count > 0);
         tile.part == other.part && are_apart(tile, other) && self.countable.iter().any(is_active)
@@ -218,7 +213,6 @@ impl Tally {
         }
     }
 
-    /// Lanes where twice the pairs of a part are more than its surface voxels, as bits.
     fn overfull(&self, surface: &[Vec<u32>], part: usize) -> u32 {
         let lanes = self.0.iter().zip(surface).enumerate();
         let is_overfull = |pairs: u32, surface: u32| surface > 0 && 2 * pairs > surface;
@@ -228,7 +222,6 @@ impl Tally {
     }
 }
 
-/// Whether two voxels' cells differ by more than one row or column.
 fn are_apart(a: &Tile, b: &Tile) -> bool {
     a.cell[0].abs_diff(b.cell[0]) > 1 || a.cell[1].abs_diff(b.cell[1]) > 1
 }

@@ -56,8 +56,7 @@ macro_rules! inlined {
     };
 }
 
-/// The operators of a type of vectors, from the sum, the difference and the product of two vectors. The expressions are
-/// pasted, because a closure would be compiled without the vector instructions of the kernel.
+/// Pasted, because a closure would be compiled without the vector instructions of the kernel.
 macro_rules! operators {
     ([$($generics:tt)*] $vector:ty, |$one:ident, $other:ident| $add:expr, $sub:expr, $mul:expr) => {
         impl<$($generics)*> std::ops::Add for $vector {

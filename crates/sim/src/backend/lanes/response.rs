@@ -44,14 +44,12 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         self.touching.inside = inside;
     }
 
-    /// The given lanes without those of unstable robots: their env step is discarded, and their huge voxels would touch
-    /// all of the ground.
+    /// Without unstable robots: their env step is discarded, and their huge voxels would touch all of the ground.
     pub fn sound_lanes(&self, lanes: u32) -> impl Iterator<Item = usize> + use<R, K> {
         let sound = lanes & !self.unstable;
         (0..self.occupants.len()).filter(move |lane| sound >> lane & 1 == 1)
     }
 
-    /// Contact between each robot's low voxels and the ground, each way once.
     #[inline(never)]
     fn collide_with_ground(&mut self, low: &[LowPoint]) {
         for lane in self.sound_lanes(u32::MAX) {
@@ -90,8 +88,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
     }
 
-    /// Contact of robots with themselves and with other objects. Two voxels of one object are evaluated twice in both
-    /// orders, so their forces are doubled.
+    /// Two voxels of one object are evaluated twice in both orders, so their forces are doubled.
     #[inline(never)]
     fn collide_with_itself(&mut self, insides: &[Inside]) {
         for inside in insides {

@@ -21,7 +21,6 @@ pub struct Scenes {
 /// A scene at the end of an env step; [`Scenes::restore`] takes it back.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneState {
-    /// The positions and velocities of the points of all objects that move.
     pub state: State,
     pub clock: u32,
     pub fault: Option<Fault>,
@@ -45,8 +44,7 @@ struct Lane {
 }
 
 impl Scenes {
-    /// Scenes at their start, in the fastest kernel of this processor. Actuators keep their rest length until they are
-    /// given targets.
+    /// Actuators keep their rest length until they are given targets.
     pub fn new(scenes: Vec<Scene>) -> Self {
         Self::with_kernel(scenes, Kernel::default())
     }
@@ -147,7 +145,6 @@ impl Scenes {
         &self.groups[group].lanes[lane]
     }
 
-    /// Sets a scene to an earlier state.
     /// Panics when the state is of other objects.
     pub fn restore(&mut self, n: usize, state: &SceneState) {
         let (group, lane) = self.places[n];
@@ -240,7 +237,6 @@ mod tests {
         SceneObject { grid: Grid::structure(rows[0].len(), rows.len(), &codes), at }
     }
 
-    /// Stairs, a package on the robot, a ball, and a bridge that hangs between two pillars.
     fn scene((robot, apart): (&[&str], &[[usize; 2]])) -> Scene {
         let placed = object(robot, [5, 1]);
         let objects = [
@@ -254,8 +250,7 @@ mod tests {
         Scene::new(&objects, &Constants::default())
     }
 
-    /// Robots, and their neighbors that are left apart. The slits from above have sides that are not between the
-    /// corners of their voxels, the first one that of a rigid voxel.
+    /// The slits from above have sides not between the corners of their voxels, the first one that of a rigid voxel.
     const ROBOTS: [(&[&str], &[[usize; 2]]); 5] = [
         (&["333", "434", "303"], &[]),
         (&["11", "34"], &[[0, 1]]),
@@ -333,7 +328,6 @@ mod tests {
         }
     }
 
-    /// A palette with two sensors of an image: 9 shrinks where it is bright, a swells there.
     fn seeing() -> Arc<Palette> {
         let mut materials = Palette::paper().materials().to_vec();
         let sensor = |name: &str, absent, present| {

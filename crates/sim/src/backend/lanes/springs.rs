@@ -27,8 +27,7 @@ impl Frame {
     }
 }
 
-/// A bottom or right side without a voxel beyond it, which would have it as its top or left side; and a left side that
-/// is driven.
+/// A bottom or right side without a voxel beyond it that has it as top or left side; and a driven left side.
 #[derive(Clone, Copy, Debug)]
 pub struct Rim {
     /// The end with the lower number: a mass.
@@ -37,13 +36,11 @@ pub struct Rim {
     pub aim: u32,
 }
 
-/// The springs' places in a frame: between which corners each runs, the earlier mass first. The kernel of devices names
-/// them by these places.
+/// Between which corners each runs, the earlier mass first. The kernel of devices names springs by these places.
 pub const FRAME: [[usize; 2]; 4] = [[0, 1], [0, 3], [0, 2], [1, 3]];
 
 #[derive(Clone, Copy, Debug)]
 pub struct Driven {
-    /// The place of its goal length in [`Springs::aims`].
     pub aim: usize,
     /// Built length in meters.
     pub rest: f64,
@@ -63,8 +60,7 @@ pub struct Springs<R: Real, K: Stiffness<R>> {
     pub rims: Vec<Rim>,
     pub rim_stiffness: Vec<K>,
     pub rim_frozen: Vec<R>,
-    /// Goal lengths times the approach factor (docs/physics.md 5): of springs that are not driven, and of each driven
-    /// one.
+    /// Goal lengths times the approach factor (docs/physics.md 5): of springs that are not driven, then of driven ones.
     pub aims: Vec<R>,
 }
 
@@ -74,7 +70,6 @@ pub type TileKey = ([usize; 2], [usize; CORNERS]);
 /// The key of a rim: the earlier mass and the later, and whether it is the earlier one of two with these ends.
 type RimKey = (usize, usize, bool);
 
-/// The place of an edge of a robot: in the frame of the voxel that has it as top, left or diagonal, or among the rims.
 #[derive(Clone, Copy, Debug)]
 enum Spring {
     Frame(TileKey, usize),
@@ -82,7 +77,7 @@ enum Spring {
 }
 
 impl<R: Real, K: Stiffness<R>> Springs<R, K> {
-    /// The union of the robots' springs, and each lane's driven springs. `maps` has the masses of each robot's points.
+    /// `maps` has the masses of each robot's points.
     pub fn new(robots: &[&Lattice], maps: &[Vec<usize>], constants: &Constants) -> (Self, Vec<Vec<Driven>>) {
         let lanes: Vec<Vec<Spring>> = robots.iter().zip(maps).map(|(body, masses)| places(body, masses)).collect();
         let mut frames: BTreeMap<TileKey, [K; 4]> = BTreeMap::new();
@@ -129,8 +124,7 @@ impl<R: Real, K: Stiffness<R>> Springs<R, K> {
         (all, driven)
     }
 
-    /// Sets the goals of a lane's driven springs: the target of a channel is a fraction of the rest width or height
-    /// (docs/physics.md 4).
+    /// The target of a channel is a fraction of the rest width or height (docs/physics.md 4).
     pub fn set_targets(&mut self, lane: usize, driven: &[Driven], targets: &[f64], constants: &Constants) {
         for driven in driven {
             let first = targets[usize::from(driven.first)];

@@ -36,8 +36,7 @@ pub fn env_step<R: Real, K: Stiffness<R>>(batch: &mut Batch<R, K>) {
     }
 }
 
-/// A spring's vector from its later to its earlier end, its length squared, and a first estimate of one over its
-/// length.
+/// From its later to its earlier end; the length squared, and a first estimate of one over the length.
 #[derive(Clone, Copy)]
 struct Measure<R> {
     r: Vector<R>,
@@ -102,7 +101,6 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
     }
 
-    /// Finishes a Runge-Kutta stage: adds drag and the plane's force, then advances the masses.
     #[inline(always)]
     fn finish_stage<const STAGE: u8>(&mut self, masses: Range<usize>) {
         let drag = R::splat(self.constants.drag * self.constants.substep);
@@ -131,8 +129,6 @@ impl<R: Real> Law<R> {
         Self { approach: R::splat(constants.approach), rest: R::splat(1.0 - constants.approach) }
     }
 
-    /// The force of a spring on its later end.
-    ///
     /// The force is r f with f = (d - l) k / d and the frozen rest length l (docs/physics.md 6). In the first stage d
     /// is also the length from which l = d + 0.006 (goal - d) is computed, so there f is k (0.006 - 0.006 goal / d),
     /// and k l is kept for the other stages.
@@ -188,8 +184,6 @@ impl<R: Real> Mass<R> {
         if STAGE == 1 { self.velocity } else { self.stage_velocity }
     }
 
-    /// Advances to the next stage, with the acceleration of this one.
-    ///
     /// With u the velocity, a_s the acceleration and u_s the velocity in stage s, all counted in substeps, the
     /// classical scheme is x_2 = x + u/2, x_3 = x + u_2/2, x_4 = x + u_3 and u_2 = u + a_1/2, u_3 = u + a_2/2,
     /// u_4 = u + a_3. It ends with x + (u + 2 u_2 + 2 u_3 + u_4)/6 and with

@@ -7,7 +7,6 @@ pub trait Stiffness<R: Real>: Copy + Send + Sync + std::fmt::Debug + 'static {
     fn none() -> Self;
     fn value(&self) -> R;
     fn set_lane(&mut self, lane: usize, stiffness: f64);
-    /// Clears a mask in lanes without the spring.
     fn mask(&self, mask: R::Mask) -> R::Mask;
 }
 

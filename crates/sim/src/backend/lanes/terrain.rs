@@ -13,7 +13,6 @@ use crate::lattice::CORNERS;
 use crate::terrain::Terrain;
 
 impl<R: Real, K: Stiffness<R>> Batch<R, K> {
-    /// Lists the surface voxels that are close to the terrain. Called when the other lists of close pairs are renewed.
     pub fn renew_terrain(&mut self, terrain: &Terrain) {
         let (near, cell) = (&mut self.touching.near, self.constants.cell);
         near.clear();
@@ -34,7 +33,6 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
     }
 
-    /// Contact between each lane's surface voxels and the terrain, each way once.
     #[inline(always)]
     pub fn collide_with_terrain(&mut self) {
         let Floor::Terrain(terrain) = &self.floor else { return };
@@ -70,7 +68,6 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
     }
 
-    /// The contact of a voxel with a fixed one, each way once.
     pub fn collide_with_fixed(&mut self, lane: usize, quad: &Quad, masses: &[usize; CORNERS], fixed: &Quad) {
         for corner in 0..CORNERS {
             if let Some(hit) = fixed.hit_by(quad, corner, &self.constants) {

@@ -31,7 +31,6 @@ pub fn for_each<T: Send>(items: &mut [T], work: impl Fn(&mut T) + Sync + Send) {
     items.iter_mut().for_each(work);
 }
 
-/// How many of `runs` runs share a batch at most: all threads get some, but not so few that lanes are idle.
 pub fn lanes_for(runs: usize, lanes: usize) -> usize {
     runs.div_ceil(count()).max(LEAST_LANES).min(lanes)
 }

@@ -36,7 +36,6 @@ pub fn run_trials(world: &World, setting: &Setting, trials: &[Trial]) -> Vec<Tra
     trajectories
 }
 
-/// Runs trials of one box: each worker fills its lanes from one queue, and again when a run is done.
 fn run_box(waiting: Vec<Waiting<'_>>, world: &World) {
     let lanes = threads::lanes_for(waiting.len(), world.kernel.lanes());
     let workers = waiting.len().div_ceil(lanes).min(threads::count());
@@ -60,7 +59,6 @@ fn run_box(waiting: Vec<Waiting<'_>>, world: &World) {
     });
 }
 
-/// The unfinished runs with their trajectories; finished ones leave their fault.
 fn keep_going(runs: Vec<Run>, trajectories: Vec<&mut Trajectory>) -> (Vec<Run>, Vec<&mut Trajectory>) {
     let mut going = (Vec::with_capacity(runs.len()), Vec::with_capacity(runs.len()));
     for (run, trajectory) in runs.into_iter().zip(trajectories) {

@@ -5,7 +5,6 @@ use std::array::from_fn;
 use crate::backend::lanes::real::{Mask, Real, inlined, operators};
 
 pub type Four = Lanes<4>;
-/// Eight lanes, where they are worth it.
 #[cfg(not(any(target_arch = "x86_64", target_family = "wasm")))]
 pub type Eight = Lanes<8>;
 

@@ -55,7 +55,6 @@ impl Capacity {
         16 * (3 * self.masses + window + 2)
     }
 
-    /// The lines in front of the kernel's text: the numbers of the physics, and the sizes.
     pub fn prelude(self, group: usize, constants: &Constants) -> String {
         let mut text = String::new();
         for (name, value) in numbers(constants) {
@@ -83,7 +82,6 @@ fn springs(side: usize) -> usize {
     4 * side * side + 2 * side
 }
 
-/// The numbers of the kernel, computed as `lanes` computes them.
 fn numbers(constants: &Constants) -> [(&'static str, f64); 35] {
     let c = constants;
     let diagonal = (c.cell * c.cell + c.cell * c.cell).sqrt();

@@ -36,14 +36,12 @@ const TEXT: &str = include_str!("step.cl");
 const KERNEL: &str = "advance";
 const PRESENT: &str = "a queue has its commands until it is dropped";
 
-/// Robots that are so few that no other needs their multiprocessor. Larger groups were faster with up to 64
-/// (docs/gpu.md).
+/// Robots so few that no other needs their multiprocessor. Larger groups were faster with up to 64 (docs/gpu.md).
 const FEW: usize = 16;
 
 /// How often a caller asks whether a launch is done, which may take 200 ms. A driver's own wait may keep a core busy.
 const POLL: Duration = Duration::from_micros(300);
 
-/// What a kernel is compiled for: the capacity of its robots, and the work-items of a group.
 type KernelSize = (Capacity, usize);
 
 pub struct Card {
@@ -56,7 +54,6 @@ pub struct Card {
 struct Handles {
     context: Arc<Context>,
     programs: BTreeMap<KernelSize, Program>,
-    /// Commands that no caller uses now.
     spare: Vec<Commands>,
 }
 
@@ -67,16 +64,13 @@ struct Commands {
     kernels: BTreeMap<KernelSize, Kernel>,
 }
 
-/// The commands of one caller. Those of several callers are done side by side, as far as the device can.
 pub struct CardQueue<'a> {
     card: &'a Card,
     /// Present until this is dropped.
     commands: Option<Commands>,
 }
 
-/// Types that the kernel reads and writes without conversion.
-///
-/// They have no padding, and every pattern of bits is a value.
+/// Types without padding, of which every pattern of bits is a value.
 pub trait Plain: Copy + Default {}
 
 impl Plain for u16 {}
@@ -87,15 +81,13 @@ impl Plain for [u32; 2] {}
 
 #[derive(Debug)]
 pub struct CardMemory<T: Plain> {
-    /// Present until this is dropped.
     buffer: Option<Buffer<u8>>,
     count: usize,
     storage: Arc<Storage>,
     numbers: PhantomData<T>,
 }
 
-/// Memory of a device that is not used now, by its size. To release memory, a driver may wait for the commands of all
-/// callers, so it is kept for the next one who needs as much.
+/// By size. To release memory, a driver may wait for the commands of all callers, so it is kept for the next one.
 #[derive(Debug, Default)]
 struct Storage {
     spare: Mutex<BTreeMap<usize, Vec<Buffer<u8>>>>,
@@ -103,10 +95,8 @@ struct Storage {
     lost: AtomicBool,
 }
 
-/// The arguments of a launch, as the kernel names them.
 pub struct Arguments<'a> {
     pub robots: &'a CardMemory<u32>,
-    /// The header of each body: where its lists are.
     pub bodies: &'a CardMemory<u32>,
     /// The lists of all bodies, one after another, as a `BodyPlan` has them.
     pub plan: &'a CardMemory<u16>,
@@ -135,7 +125,6 @@ impl Card {
         Ok(Self { device: device.clone(), group, handles: Mutex::new(handles), storage: Arc::default() })
     }
 
-    /// The work-items of the group of each of so many robots.
     fn group(&self, capacity: Capacity, robots: usize) -> usize {
         let best = match self.device.kind {
             // A processor runs the work-items of a group one after another.
@@ -148,7 +137,6 @@ impl Card {
         self.group.unwrap_or(best).min(self.device.group_size)
     }
 
-    /// Whether a robot of this capacity has room in the memory of a group.
     pub fn fits(&self, capacity: Capacity) -> bool {
         capacity.local_bytes() <= self.device.local_bytes
     }
@@ -161,7 +149,6 @@ impl Card {
         Ok(CardQueue { card: self, commands: Some(commands) })
     }
 
-    /// A kernel, whose program is compiled if this is the first of its size.
     fn kernel(&self, size: KernelSize, constants: &Constants) -> Result<Kernel, DeviceError> {
         let mut handles = self.lock();
         let Handles { context, programs, .. } = &mut *handles;
@@ -191,7 +178,7 @@ impl Card {
         options
     }
 
-    /// The error of a driver's function. After one other than of memory, the device counts as lost.
+    /// After an error other than of memory, the device counts as lost.
     fn fail(&self, error: ClError) -> DeviceError {
         let failure = failure(&self.device.name, error);
         if matches!(failure, DeviceError::Lost { .. }) {
@@ -271,7 +258,6 @@ impl CardQueue<'_> {
         Ok(CardMemory { buffer: Some(buffer), count, storage: Arc::clone(storage), numbers: PhantomData })
     }
 
-    /// Copies numbers from the start of a memory of the device.
     pub fn read<T: Plain>(&self, memory: &CardMemory<T>, count: usize) -> Result<Vec<T>, DeviceError> {
         assert!(count <= memory.count, "a memory is read within its bounds");
         let mut data = vec![T::default(); count];
@@ -287,8 +273,7 @@ impl CardQueue<'_> {
         Ok(data)
     }
 
-    /// Simulates as many robots as groups, and returns the time in nanoseconds. The kernel is compiled if this is the
-    /// first launch of its size.
+    /// Simulates as many robots as groups, and returns the time in nanoseconds.
     pub fn launch(
         &mut self,
         capacity: Capacity,
@@ -380,7 +365,6 @@ impl Storage {
         self.lock().get_mut(&bytes)?.pop()
     }
 
-    /// Gives all spare memory back to the driver, or none if the device is lost.
     fn release(&self) {
         let spare = mem::take(&mut *self.lock());
         if self.is_lost() {

@@ -14,9 +14,7 @@ use crate::monitor::Monitor;
 use crate::signal::Signals;
 use nbc_base::model::Spell;
 
-/// The most env steps of a launch.
 const WINDOW: u32 = 840;
-/// The env steps of the first launch.
 const FIRST_WINDOW: u32 = 4;
 /// The time that a launch should take, in nanoseconds. Drivers of cards that also show a screen stop programs after
 /// some seconds, and a simulation can be stopped only between launches.
@@ -28,7 +26,6 @@ const MOST_SEEING: usize = 1024;
 /// Robots that a multiprocessor simulates side by side.
 pub const AT_ONCE: usize = 4;
 
-/// The kernel's code for a robot that became unstable.
 const UNSTABLE: u32 = 1;
 const SOUND: u32 = 0;
 
@@ -36,7 +33,6 @@ const SOUND: u32 = 0;
 pub struct DeviceWorld {
     pub card: Arc<Card>,
     pub constants: Constants,
-    /// Ground voxels in a row.
     pub width: usize,
     pub monitor: Option<Arc<Monitor>>,
 }
@@ -46,7 +42,6 @@ struct Member {
     plan: Arc<BodyPlan>,
 }
 
-/// Runs with plans of one capacity, in the memory of the device.
 struct DeviceRuns<'a> {
     world: &'a DeviceWorld,
     queue: CardQueue<'a>,
@@ -73,8 +68,7 @@ impl DeviceWorld {
         runs.iter().map(plan).collect()
     }
 
-    /// Simulates each run until it is done, calling `record` with its center of mass after each of its env steps.
-    /// Returns the runs that have no room in the memory of a group; nothing is done with them.
+    /// Calls `record` with the center of mass after each env step. Returns untouched the runs without room in a group.
     pub fn finish(&self, runs: &mut [Run], record: &mut dyn FnMut(usize, [f64; 2])) -> Result<Vec<usize>, DeviceError> {
         let mut groups: BTreeMap<Capacity, Vec<Member>> = BTreeMap::new();
         let mut too_large = Vec::new();
@@ -97,8 +91,7 @@ impl DeviceWorld {
         Ok(too_large)
     }
 
-    /// Groups that are simulated one after another. Robots that the device simulates side by side are one group, with
-    /// room for the largest, because each group takes as long as its longest run.
+    /// Robots side by side are one group with room for the largest: each group takes as long as its longest run.
     fn side_by_side(&self, groups: BTreeMap<Capacity, Vec<Member>>) -> BTreeMap<Capacity, Vec<Member>> {
         let robots: usize = groups.values().map(Vec::len).sum();
         let largest = groups.keys().copied().reduce(Capacity::max);
@@ -118,7 +111,6 @@ impl DeviceWorld {
         state.min(buffer).max(1)
     }
 
-    /// Simulates some runs; in two halves if the device has not enough memory for all.
     fn finish_some(
         &self,
         capacity: Capacity,
@@ -200,8 +192,7 @@ impl<'a> DeviceRuns<'a> {
         self.read_states(runs)
     }
 
-    /// One launch: simulates `steps` env steps of each run, or fewer if less is left of it. Returns the time in
-    /// nanoseconds.
+    /// Simulates `steps` env steps of each run, or what is left of it. Returns the time in nanoseconds.
     fn advance(
         &mut self,
         steps: u32,
@@ -249,7 +240,6 @@ impl<'a> DeviceRuns<'a> {
         Ok(spent)
     }
 
-    /// Reads the runs' states after their last complete env steps.
     fn read_states(&self, runs: &mut [Run]) -> Result<(), DeviceError> {
         let [position, previous, velocity] = self.state.each_ref();
         let read = |memory: &CardMemory<[f64; 2]>| self.queue.read(memory, memory.count());
@@ -283,8 +273,7 @@ fn next_window(steps: u32, spent: u64) -> u32 {
 /// What the targets of a run depend on: its signals, clock and spells.
 type SignalKey = (usize, u32, Vec<Spell>);
 
-/// The targets of the channels in the env steps of a launch. Runs with the same signals, clock and stimuli share
-/// them.
+/// Runs with the same signals, clock and stimuli share targets.
 struct SignalTable<'a> {
     /// Rows of `channels` numbers, one for each env step.
     targets: Vec<f64>,

@@ -13,7 +13,6 @@ use crate::backend::opencl::error::DeviceError;
 pub enum DeviceKind {
     Graphics,
     Other,
-    /// A processor, such as this machine's own in PoCL.
     Processor,
 }
 
@@ -38,11 +37,8 @@ pub struct OpenClDevice {
     pub global_bytes: u64,
     /// The size of the largest buffer, in bytes.
     pub buffer_bytes: u64,
-    /// The size of the memory that a work-group shares, in bytes.
     pub local_bytes: usize,
-    /// Its multiprocessors: each simulates a few robots side by side.
     pub multiprocessors: usize,
-    /// The most work-items of a group.
     pub group_size: usize,
     pub has_doubles: bool,
     /// Whether it rounds roots and quotients of single precision correctly.

@@ -38,7 +38,6 @@ pub struct OpenClBackend {
 }
 
 impl OpenClBackend {
-    /// Opens a device and compares a few of its results with those of this processor.
     pub fn open(device: &OpenClDevice, processor: LaneBackend) -> Result<Self, DeviceError> {
         let backend = Self::unchecked(device, processor, None)?;
         let (_, problem) = backend.test(SelfTest::QUICK)?;
@@ -63,7 +62,6 @@ impl OpenClBackend {
         self.failure.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Counts the device as failed: from now on this processor does its work.
     pub fn give_up(&self, error: DeviceError) {
         *self.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
     }
@@ -78,9 +76,8 @@ impl OpenClBackend {
         Ok((comparisons, problem))
     }
 
-    /// Simulates runs on the device until they are done, calling `record` with the center of mass after each env step.
-    /// Returns those that are too large for it, or nothing if it failed, now or before, or if the world has other
-    /// physics than the kernels of the device, which contain the numbers of the paper's.
+    /// Returns the runs that are too large for the device, or nothing if it failed or the world has other physics than
+    /// the paper's, whose numbers the kernels contain.
     fn finish(
         &self,
         setting: &Setting,
@@ -147,8 +144,7 @@ impl Backend for OpenClBackend {
     }
 }
 
-/// Robots that are advanced step by step on a device. Their states are read after each advance, so that nothing is lost
-/// if the device is.
+/// States are read after each advance, so that nothing is lost if the device is.
 #[derive(Debug)]
 struct DeviceFlock {
     device: OpenClBackend,

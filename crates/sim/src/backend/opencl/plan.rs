@@ -19,7 +19,6 @@ const TOUCHING: [usize; CORNERS] = [2, 3, 1, 0];
 
 #[derive(Clone, Debug)]
 pub struct BodyPlan {
-    /// The mass of each of its points.
     pub masses: Vec<usize>,
     /// All lists of the kernel's `Robot`, one after another.
     pub words: Vec<u16>,
@@ -37,7 +36,6 @@ pub struct BodyPlan {
 struct SpringTable {
     /// Ends as masses, the earlier first.
     ends: Vec<[usize; 2]>,
-    /// The spring of each edge of the lattice.
     of_edge: Vec<usize>,
 }
 
@@ -86,7 +84,6 @@ impl BodyPlan {
         self.tiles
     }
 
-    /// The words that describe it to the kernel, if its lists begin at these places.
     pub fn header(&self, words: usize, stiffness: usize) -> [u32; 10] {
         let rims = self.springs() - 4 * self.frames;
         let Self { frames, driven, tiles, points, levels, countable, .. } = *self;
@@ -173,15 +170,13 @@ fn around(surface: &[&Voxel], masses: &[usize]) -> Vec<u16> {
     around.concat()
 }
 
-/// A surface voxel: its masses, its surface sides as bits, its row and column.
 fn tile(voxel: &Voxel, masses: &[usize]) -> [u16; 7] {
     let [a, b, c, d] = voxel.corners.map(|point| masses[point] as u16);
     let sides = (0..CORNERS).filter(|&side| voxel.surface[side]).fold(0, |bits, side| bits | 1 << side);
     [a, b, c, d, sides, voxel.row as u16, voxel.column as u16]
 }
 
-/// Rigid voxels, corners as masses. Each is one level after the last earlier voxel that has a mass in common with it,
-/// so voxels of a level can be processed at the same time.
+/// Each is one level after the last earlier voxel with a mass in common, so a level can be processed at once.
 fn rigid_levels(body: &Lattice, masses: &[usize]) -> Vec<Vec<[usize; CORNERS]>> {
     let mut levels: Vec<Vec<[usize; CORNERS]>> = Vec::new();
     let mut next = vec![0; masses.len()];

@@ -15,15 +15,12 @@ pub struct SelfTest {
 pub struct BoxComparison {
     pub side: usize,
     pub trials: usize,
-    /// The trials of these whose results differ from those of the processor.
     pub different: usize,
 }
 
 impl SelfTest {
-    /// The test of every device when it is opened.
     pub const QUICK: Self = Self { sides: &[3], bodies: 9, steps: 6 };
 
-    /// All materials in each of the three boxes of the paper.
     pub const FULL: Self = Self { sides: &[5, 7, 10], bodies: 24, steps: 84 };
 
     pub fn compare(self, device: &dyn Backend, processor: &dyn Backend) -> Vec<BoxComparison> {
@@ -37,7 +34,6 @@ impl SelfTest {
         BoxComparison { side, trials: trials.len(), different }
     }
 
-    /// A body of all materials, every other one with holes, under two patterns.
     fn trial(self, side: usize, body: usize) -> Trial {
         let whole = Body::patchwork(side, body);
         let holes =

@@ -28,7 +28,6 @@ pub struct Search {
     proposal: Proposal,
 }
 
-/// The bodies that a search tries.
 #[derive(Clone, Debug, PartialEq)]
 enum Proposal {
     Declared,
@@ -46,8 +45,7 @@ pub struct SearchState {
 }
 
 impl SearchState {
-    /// Whether a run of this declaration can reach this state: every body is what its network develops into, is valid,
-    /// and is in its niche.
+    /// Whether a run can reach this state: every body is what its network develops into, is valid, and is in its niche.
     pub fn fits(&self, evolution: &Evolution) -> bool {
         let Evolution { genome, palette, rules, width, height, .. } = evolution;
         let descriptor = Descriptor::new(evolution);
@@ -143,7 +141,7 @@ impl Search {
         self.generation >= self.evolution.generations
     }
 
-    /// The candidates of the next generation. Calling it twice returns the same candidates.
+    /// Calling it twice returns the same candidates.
     pub fn ask(&self) -> Vec<Candidate> {
         if let Proposal::Neighbors(start) = &self.proposal {
             return self.neighbors(start.as_ref());
@@ -164,8 +162,7 @@ impl Search {
         candidates
     }
 
-    /// Takes the outcomes of a generation's candidates, in their order.
-    /// Panics when there is not one outcome for each candidate.
+    /// In their order. Panics when there is not one outcome for each candidate.
     pub fn tell(&mut self, candidates: &[Candidate], outcomes: &[CandidateOutcome]) {
         assert_eq!(candidates.len(), outcomes.len(), "each candidate has one outcome");
         self.mirrors.clear();
@@ -182,7 +179,6 @@ impl Search {
         }
     }
 
-    /// The elites that a body, or an image of it that its evaluation also fills, must beat.
     pub fn rivals(&self, body: &Body) -> Rivals {
         let images: Vec<(Option<&Recoding>, Body)> = match self.recodings.as_slice() {
             [] => vec![(None, body.clone())],
@@ -221,7 +217,6 @@ impl Search {
         }
     }
 
-    /// Offers an elite and its images; returns whether any entered the archive.
     fn offer(&mut self, elite: Elite) -> bool {
         let images: Vec<Elite> = match self.recodings.as_slice() {
             [] => vec![elite],
@@ -243,7 +238,6 @@ impl Search {
         bodies.filter(|body| validate(body).is_ok()).collect()
     }
 
-    /// Distinct niches, drawn evenly without replacement, and an elite of each.
     fn parents(&self) -> Vec<(&NicheKey, &Elite)> {
         let mut rng = self.stream(u32::MAX);
         let mut niches: Vec<_> = self.archive.niches().collect();
@@ -262,15 +256,13 @@ impl Search {
     }
 }
 
-/// The random stream of a place in a generation of a run.
 pub fn stream(seed: u64, generation: u32, index: u32) -> ChaCha8Rng {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(u64::from(generation) << 32 | u64::from(index));
     rng
 }
 
-/// The images of an elite that show each behavior of its class, as far as its palette has counterpart sensors: the
-/// first of each behavior, the elite itself first. Mirrored ones move nearly as their originals do.
+/// The first of each behavior of its class, the elite itself first. Mirrored ones move nearly as their originals do.
 pub fn images(elite: &Elite) -> Vec<Elite> {
     let mirrored = Elite {
         behavior: elite.behavior.function().inverted().into(),
@@ -342,7 +334,6 @@ pub(crate) mod tests {
         }
     }
 
-    /// A made-up outcome that depends on the body alone.
     pub(crate) fn outcome(body: &Body) -> CandidateOutcome {
         let weight = |k: usize| {
             body.codes().iter().enumerate().map(|(i, &c)| ((i * k + 3) % 7 * usize::from(c)) as f64).sum::<f64>()

@@ -18,7 +18,6 @@ pub enum CandidateOrigin {
     Random,
     Offspring(NicheKey),
     Start,
-    /// The mirror image of a body that entered the archive in the previous generation.
     Mirror,
 }
 
@@ -32,7 +31,6 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// A body that no network developed into.
     pub fn of_voxels(origin: CandidateOrigin, body: Body) -> Self {
         Self { origin, genotype: None, body, undeveloped: 0 }
     }
@@ -53,8 +51,7 @@ impl Search {
         }
     }
 
-    /// Changes the voxels of a parent, after putting a part of another elite of its behavior in their place for that
-    /// share of the offspring; without a parent, draws random voxels.
+    /// A share of the offspring takes a part of another elite of its behavior. Without a parent, voxels are random.
     fn assemble(
         &self,
         index: u32,
@@ -82,7 +79,6 @@ impl Search {
         None
     }
 
-    /// Mutates a network until its body is valid; `None` if this seems impossible.
     fn develop(&self, index: u32, origin: CandidateOrigin, parent: Option<&Elite>) -> Option<Candidate> {
         let Evolution { palette, rules, width, height, mutation, .. } = &self.evolution;
         let mut rng = self.stream(index);
@@ -104,7 +100,6 @@ impl Search {
         None
     }
 
-    /// Neighbors of elites; while there are none, those of the start, or random bodies.
     pub(super) fn neighbors(&self, start: Option<&Body>) -> Vec<Candidate> {
         let elites: Vec<&Body> = self.archive.elites().map(|elite| &elite.body).collect();
         if elites.is_empty() && (start.is_none() || self.generation >= NEARBY) {
@@ -138,7 +133,6 @@ impl Search {
 enum Attempt {
     Done,
     GoOn,
-    /// Undo all mutations so far.
     Undo,
 }
 
