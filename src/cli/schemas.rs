@@ -37,14 +37,14 @@ fn derived() -> Vec<(Schema, Value)> {
         of::<test::worlds::WorldResults>(Schema::Robustness),
         of::<RunResult>(Schema::Run),
         of::<RecognitionReport>(Schema::See),
-        of::<simulate::Outcome>(Schema::Simulate),
+        of::<simulate::SimulatedPath>(Schema::Simulate),
         of::<SynthesisReport>(Schema::Synth),
         of::<test::TestResults>(Schema::Test),
         of::<RobotList<Verified>>(Schema::Verify),
     ];
     #[cfg(feature = "gpu")]
     all.extend([
-        of::<crate::cli::bench::Figures>(Schema::Bench),
+        of::<crate::cli::bench::BenchFigures>(Schema::Bench),
         of::<crate::cli::gpu::devices::DeviceList>(Schema::Devices),
     ]);
     #[cfg(feature = "play")]

@@ -58,7 +58,7 @@ pub struct SimulateArguments {
 
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub(super) struct Outcome<'a> {
+pub(super) struct SimulatedPath<'a> {
     /// Voxels walked in each entry of the schedule; null if the simulation ended before the entry did.
     displacement: Vec<Option<f64>>,
     /// Place of the center of mass in voxels, at the start and after each env step.
@@ -80,7 +80,7 @@ impl SimulateArguments {
         device.end(context)?;
         let warnings: Vec<Diagnostic> = ground_ends(&setting, &trajectory).into_iter().collect();
         context.tell(&warnings, &Sources::default());
-        context.print_result(Schema::Simulate, &Outcome::of(&schedule, &trajectory), || {
+        context.print_result(Schema::Simulate, &SimulatedPath::of(&schedule, &trajectory), || {
             describe(&schedule, &shown, &trajectory)
         })?;
         Ok(if trajectory.fault.is_none() { Status::Done } else { Status::TestFailed })
@@ -111,7 +111,7 @@ fn ground_ends(setting: &Setting, trajectory: &Trajectory) -> Option<Diagnostic>
     Some(wording::ground_ends(step, setting.world_width))
 }
 
-impl<'a> Outcome<'a> {
+impl<'a> SimulatedPath<'a> {
     fn of(schedule: &Schedule, trajectory: &'a Trajectory) -> Self {
         Self {
             displacement: trajectory.displacements(schedule),

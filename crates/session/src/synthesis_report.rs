@@ -48,7 +48,10 @@ struct ProofReport {
     /// What Yosys' own reader makes of the file: the same, which is proved (`alike`); the same in `steps` random steps
     /// (`equal`); something else (`different`); a circuit with feedback (`not compared`); or nothing (`unread`).
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["alike", "equal", "different", "not compared", "unread"])))]
+    #[cfg_attr(
+        feature = "schema",
+        schemars(extend("enum" = ["alike", "equal", "different", "not compared", "unread"]))
+    )]
     second: Option<&'static str>,
     /// Random steps in which both readings are equal, if more is not known.
     #[serde(skip_serializing_if = "Option::is_none")]

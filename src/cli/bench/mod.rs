@@ -58,7 +58,7 @@ struct Case {
 
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub(super) struct Figures {
+pub(super) struct BenchFigures {
     /// Processor and instructions.
     machine: String,
     /// Lanes.
@@ -85,7 +85,7 @@ impl BenchArguments {
         drop(bar);
         let swarm = self.swarm.then(|| SwarmFigures::measure(kernel)).transpose()?;
         let (machine, width) = (machine(kernel), kernel.lanes());
-        let figures = Figures {
+        let figures = BenchFigures {
             machine,
             width,
             cases,
@@ -131,7 +131,7 @@ pub(super) fn processor() -> String {
     model.map_or(std::env::consts::ARCH, |(_, name)| name.trim()).to_owned()
 }
 
-fn describe(figures: &Figures) -> String {
+fn describe(figures: &BenchFigures) -> String {
     use Align::{Left, Right};
     let columns = [("box", Left), ("scalar", Right), ("one body", Right), ("different", Right), ("evaluations", Right)];
     let mut table = TextTable::new(&columns);
@@ -141,7 +141,7 @@ fn describe(figures: &Figures) -> String {
         let [scalar, lanes, different] = speeds;
         table.push(vec![case.bounds.clone(), scalar, lanes, different, format!("{:.2}", case.evaluations)]);
     }
-    let Figures { machine, width, .. } = figures;
+    let BenchFigures { machine, width, .. } = figures;
     let mut parts = describe_timings(figures);
     parts.extend(figures.swarm.as_ref().map(SwarmFigures::describe));
     #[cfg(feature = "gpu")]
@@ -150,7 +150,7 @@ fn describe(figures: &Figures) -> String {
 }
 
 /// Empty if they were not measured.
-fn describe_timings(figures: &Figures) -> String {
+fn describe_timings(figures: &BenchFigures) -> String {
     let columns = Part::OF_LANES.map(|part| (part.name(), Align::Right));
     let columns: Vec<_> = [("box", Align::Left)].into_iter().chain(columns).collect();
     let mut table = TextTable::new(&columns);
