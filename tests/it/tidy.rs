@@ -280,22 +280,22 @@ fn messages_are_written_in_wording_files() {
 
 /// The most lines of Rust in each room. Whoever needs more raises a figure here, and says why in the commit.
 const ROOMS: [(&str, usize); 16] = [
-    ("crates/base", 0),
-    ("crates/circuit", 0),
-    ("crates/cluster", 0),
-    ("crates/lang", 0),
-    ("crates/learn", 0),
-    ("crates/lsp", 0),
-    ("crates/play", 0),
-    ("crates/play-server", 0),
-    ("crates/report", 0),
-    ("crates/session", 0),
-    ("crates/sim", 0),
-    ("crates/store", 0),
-    ("crates/swarm", 0),
-    ("crates/web", 0),
-    ("src", 0),
-    ("tests/it", 0),
+    ("crates/base", 7_000),
+    ("crates/circuit", 24_950),
+    ("crates/cluster", 2_700),
+    ("crates/lang", 12_300),
+    ("crates/learn", 2_650),
+    ("crates/lsp", 5_350),
+    ("crates/play", 6_550),
+    ("crates/play-server", 1_650),
+    ("crates/report", 8_650),
+    ("crates/session", 6_050),
+    ("crates/sim", 6_900),
+    ("crates/store", 4_300),
+    ("crates/swarm", 7_500),
+    ("crates/web", 650),
+    ("src", 9_150),
+    ("tests/it", 19_500),
 ];
 
 #[test]

@@ -1,6 +1,7 @@
 //! The processor at the level of logic, with registers and memory around it: 64 machines at once, each in a lane.
 
 use std::fmt::Write;
+use std::fs;
 
 use nbc_base::model::Instance;
 use nbc_base::source::{MemoryWorld, Sources};
@@ -9,7 +10,6 @@ use nbc_circuit::waves::{ClockRun, ClockStep, LANES, StateBit};
 use nbc_lang::check;
 
 use super::reference::{Memory, OUTPUT};
-use crate::support::*;
 
 /// What is outside a processor, for one lane.
 #[derive(Clone, Debug, Default)]
