@@ -2,8 +2,10 @@
 
 use lsp_server::{ErrorCode, RequestId, Response};
 
+#[cfg(feature = "disk")]
 use nbc_base::diag::{Code, Diagnostic};
 
+#[cfg(feature = "disk")]
 pub(super) fn protocol(reason: &str) -> Diagnostic {
     let message = format!("the client does not speak the Language Server Protocol: {reason}");
     Diagnostic::without_place(Code::Unreadable, message)
