@@ -20,7 +20,7 @@ const COMMANDS: [&str; 15] = [
     "bench",
     "build latch.nb --harden start=1 --worlds 2000",
     "build products.nb",
-    "evolve paper.nb --run paper10 --out out",
+    "evolve paper.nb --run paper10 --out out --resume",
     "learn rows.csv --hold-out 0",
     "library add body.yaml --into robots",
     "library verify shipped",

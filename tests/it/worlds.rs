@@ -310,6 +310,11 @@ fn radius(bench: &Bench, changes: &str, more: &[&str]) -> (i32, f64) {
 }
 
 #[test]
+fn a_tiny_change_has_the_largest_radius() {
+    assert_eq!(radius(&bench_with_a_gate(), "gravity=0.001%", &[]), (0, 6.0));
+}
+
+#[test]
 fn a_robot_has_a_radius_and_its_file_keeps_it() {
     let bench = bench_with_a_gate();
     let (status, least) = radius(&bench, "dead=100%", &["--write"]);

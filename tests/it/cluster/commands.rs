@@ -101,3 +101,13 @@ fn a_signal_stops_what_workers_do() {
         assert_eq!((ran.status, &*ran.out), (4, out), "{}", ran.err);
     }
 }
+
+#[test]
+fn a_server_that_is_not_there_is_named() {
+    let bench = Bench::new();
+    bench.file("latch.nb", LATCH);
+    for command in ["test latch.nb --physics", "library verify"] {
+        let arguments: Vec<&str> = command.split(' ').chain(["--nats", "nats://127.0.0.1:1"]).collect();
+        bench.run(&arguments[..]).expect_fault(&["cannot use the NATS server `nats://127.0.0.1:1`"]);
+    }
+}
