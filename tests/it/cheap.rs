@@ -62,7 +62,7 @@ fn a_check_looks_at_the_robots_of_an_evolution_that_has_run() {
     ] {
         let bench = Bench::with("a.nb", library(fields));
         fs::create_dir_all(bench.path().join("out/few/robots")).unwrap();
-        bench.file(&format!("out/few/robots/{name}.yaml"), text);
+        bench.file(format!("out/few/robots/{name}.yaml"), text);
         let [checked, tested] = ["check", "test"].map(|command| bench.run(&[command, "a.nb"]));
         checked.expect_fault(&[says]);
         assert_eq!((tested.status, tested.err), (2, checked.err), "{}", tested.out);

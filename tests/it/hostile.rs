@@ -192,7 +192,7 @@ fn links_to_folders_do_not_multiply_files() {
     }
     for at in 0..40 {
         let next = at + 1;
-        bench.file(&format!("{at}.nb"), format!("use \"x/{next}.nb\"\nuse \"y/{next}.nb\"\n"));
+        bench.file(format!("{at}.nb"), format!("use \"x/{next}.nb\"\nuse \"y/{next}.nb\"\n"));
     }
     bench.file("40.nb", "circuit f(a) -> (q) { q = a }");
     let ran = bench.run("check 0.nb");

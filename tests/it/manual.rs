@@ -55,7 +55,7 @@ fn run_command(bench: &Bench, fence: &Fence, code: Code) -> String {
 
 fn check_page(code: Code) -> String {
     let bench = Bench::new();
-    let fences = fences(&text_of(&format!("docs/errors/{code}.md")));
+    let fences = fences(&text_of(format!("docs/errors/{code}.md")));
     let (mut failing, mut mended) = (Vec::new(), 0);
     for fence in &fences {
         let fails = fence.words.contains(&"fails".to_owned());

@@ -145,7 +145,7 @@ fn two_swarms_of_different_palettes_run_in_one_file() {
     let bench = Bench::new();
     for (folder, robot) in [("paper", not), ("own", &own)] {
         fs::create_dir(bench.path().join(folder)).unwrap();
-        bench.file(&format!("{folder}/not.yaml"), store::print_robot(robot));
+        bench.file(format!("{folder}/not.yaml"), store::print_robot(robot));
     }
     let source = "
 library paper { from: \"paper\" }

@@ -114,7 +114,7 @@ fn all_swarms_of_a_circuit_run() {
     assert_eq!(levels["tests"].as_array().unwrap().len(), 2);
     assert_eq!(json(&bench, "test a.nb --logic")["tests"].as_array().unwrap().len(), 1, "gates are of no library");
     for file in ["inverter-usual-waves.vcd", "inverter-own-waves.vcd", "simulate-own-cycles.csv"] {
-        bench.read(&format!("out/a/{file}"));
+        bench.read(format!("out/a/{file}"));
     }
     bench.run("build a.nb").expect_fault(&[
         "several swarms are declared for `inverter`",

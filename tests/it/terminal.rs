@@ -54,7 +54,7 @@ fn robots_circuits_and_checkpoints_are_shown_as_codes() {
     let robot = text_of("library/robots/nand_5x5.yaml");
     bench.file("robot.yaml", format!("\"\\e[2J\\e]0;pwned\\a\\x9b31m\\u202ex\": 1\n{robot}"));
     check(&bench, &["library", "verify", "robot.yaml"]);
-    bench.file(&format!("{HOSTILE}.yaml"), "body: []");
+    bench.file(format!("{HOSTILE}.yaml"), "body: []");
     check(&bench, &["library", "verify", &format!("{HOSTILE}.yaml")]);
     bench.file("names.blif", format!(".model m\n.inputs a\n.outputs {HOSTILE}\n.end\n"));
     check(&bench, &["synth", "names.blif", "--cells", "nand"]);

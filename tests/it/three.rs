@@ -30,8 +30,7 @@ fn bench() -> Bench {
 }
 
 fn evolve(bench: &Bench, run: &str, out: &str, more: &[&str]) -> Ran {
-    let ran = bench.ok(&[&["evolve", "short.nb", "--run", run, "--out", out], more].concat());
-    ran
+    bench.ok(&[&["evolve", "short.nb", "--run", run, "--out", out], more].concat())
 }
 
 #[test]

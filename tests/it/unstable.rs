@@ -55,8 +55,7 @@ simulate s with schedule (a, b) {
 ";
 
 fn boom() -> Bench {
-    let bench = Bench::with("boom.nb", BOOM);
-    bench
+    Bench::with("boom.nb", BOOM)
 }
 
 pub fn names(text: &str) -> bool {

@@ -336,7 +336,7 @@ fn bench_with_two_gates(more: &str) -> Bench {
     fs::create_dir(bench.path().join("robots")).unwrap();
     for (folder, name) in [("thin", "nand_5x5"), ("robots", "nand_7x7")] {
         let path = root().join(format!("library/{folder}/{name}.yaml"));
-        bench.file(&format!("robots/{name}.yaml"), fs::read_to_string(path).unwrap());
+        bench.file(format!("robots/{name}.yaml"), fs::read_to_string(path).unwrap());
     }
     let source = format!(
         "library two {{ from: \"robots\"{more} }}\n\
