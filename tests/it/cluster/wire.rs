@@ -29,7 +29,8 @@ pub struct Seen {
 impl Seen {
     /// Whether it is an answer of the worker to a task of run 0.
     pub fn is_first_answer_of(&self, worker: &str) -> bool {
-        self.is_answer_of(worker) && self.payload[1..].starts_with(br#"{"key":{"run":0,"#)
+        let text = self.payload.get(1..).unwrap_or_default();
+        self.is_answer_of(worker) && text.starts_with(br#"{"key":{"run":0,"#)
     }
 
     pub fn is_answer_of(&self, worker: &str) -> bool {
