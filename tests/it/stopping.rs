@@ -20,7 +20,7 @@ const COMMANDS: [&str; 15] = [
     "bench",
     "build latch.nb --harden start=1 --worlds 2000",
     "build products.nb",
-    "evolve paper.nb --run paper10 --out out --resume",
+    "evolve paper.nb --run paper5 --out out --resume",
     "learn rows.csv --hold-out 0",
     "library add body.yaml --into robots",
     "library verify shipped",
@@ -35,7 +35,8 @@ const COMMANDS: [&str; 15] = [
 ];
 
 /// Commands that are quick, or that leave signals to the system, which ends them.
-const QUICK: &str = "bug-report check completions devices draw explain export fmt help lsp manual new synth";
+const QUICK: &str = "bug-report check completions devices draw explain export fmt help lsp manual new synth worker \
+                     workers";
 
 #[test]
 fn each_command_is_asked_or_quick() {
