@@ -355,7 +355,7 @@ def test_names_that_are_looked_up_are_offered(tmp_path):
         (lambda: program.evolutions["gate"], KeyError, "no evolution called `gate`; did you mean `gates`?"),
         (lambda: program.test("turn"), KeyError, "called `turn`; did you mean `turns`?"),
         (lambda: program.compile(objective="aera"), ValueError, "did you mean `area`?"),
-        (lambda: program.compile(effort="hig"), ValueError, "did you mean `high`?"),
+        (lambda: program.compile(effort="fasst"), ValueError, "did you mean `fast`?"),
         (lambda: program.test(level="logik"), ValueError, "did you mean `logic`?"),
         (lambda: swarm.step(aa=1), ValueError, "no input port called `aa`; did you mean `a`?"),
         (lambda: nbc.Search(nbc.Evolution()).archive.heatmap("voxel", "behavior"), ValueError, "mean `voxels`?"),
