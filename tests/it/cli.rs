@@ -207,7 +207,7 @@ fn each_command_has_a_page_for_man() {
 
 #[test]
 fn robot_files_are_read_from_a_pipe() {
-    assert_eq!(Bench::new().told("simulate /dev/stdin --schedule 00*1", WALKER).status, 0);
+    assert_eq!(Bench::new().with_input("simulate /dev/stdin --schedule 00*1", WALKER).status, 0);
 }
 
 #[test]
@@ -345,12 +345,12 @@ fn a_circuit_with_parameters_is_built_with_numbers_for_them() {
 fn standard_input_is_formatted_to_standard_output() {
     let bench = Bench::new();
     let (wide, canonical) = (flip(true).replace("not a", "not  a"), flip(true));
-    assert_eq!(bench.told("fmt -", &wide).out, canonical);
-    let check = |text: &str| bench.told("fmt --check -", text).status;
+    assert_eq!(bench.with_input("fmt -", &wide).out, canonical);
+    let check = |text: &str| bench.with_input("fmt --check -", text).status;
     assert_eq!((check(&wide), check(&canonical)), (1, 0));
-    let broken = bench.told("fmt -", "circuit f(");
+    let broken = bench.with_input("fmt -", "circuit f(");
     assert_eq!((broken.status, broken.out.as_str()), (2, ""));
-    assert_eq!(bench.told("fmt - --format json", &wide).status, 2);
+    assert_eq!(bench.with_input("fmt - --format json", &wide).status, 2);
 }
 
 #[test]

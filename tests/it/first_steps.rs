@@ -28,9 +28,9 @@ fn a_program_without_errors_is_told_so() {
 #[test]
 fn standard_input_is_checked() {
     let bench = Bench::with("used.nb", FINE);
-    let fine = bench.told("check -", "use \"used.nb\"\ncircuit g(a) -> (q) { q = f(a) }\n");
+    let fine = bench.with_input("check -", "use \"used.nb\"\ncircuit g(a) -> (q) { q = f(a) }\n");
     assert_eq!((fine.status, &*fine.out, &*fine.err), (0, "<stdin>: no errors\n", ""));
-    bench.told("check -", "circuit g(a) -> (q) { q = b }\n").expect_fault(&["[<stdin>:1:27]"]);
+    bench.with_input("check -", "circuit g(a) -> (q) { q = b }\n").expect_fault(&["[<stdin>:1:27]"]);
 }
 
 #[test]

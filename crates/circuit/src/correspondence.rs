@@ -133,7 +133,7 @@ impl<'d> RegisterClasses<'d> {
         }
     }
 
-    /// Splits the classes in some words of inputs and states, `word(number, input)`; whether it did.
+    /// Splits classes by the next values for words of inputs and states, `word(number, input)`. Returns whether it did.
     fn split_by_next(&mut self, words: usize, mut word: impl FnMut(usize, usize) -> u64) -> bool {
         let network = self.assumed();
         let mut values: Vec<Vec<u64>> = vec![Vec::new(); self.leaders.len()];
@@ -237,7 +237,7 @@ impl<'d> RegisterClasses<'d> {
         }
     }
 
-    /// Inputs and states after which classes do not agree, and whether registers left theirs because that is open.
+    /// Inputs and states after which members of a class differ, and whether registers left a class without a proof.
     fn counterexamples(&mut self) -> (Vec<Vec<bool>>, bool) {
         let mut network = self.assumed();
         let mut pairs: Vec<(usize, [Signal; 2])> = Vec::new();

@@ -15,7 +15,7 @@ impl<T> Default for Interned<T> {
 }
 
 impl<T: Clone + Ord> Interned<T> {
-    /// The number of an item, which is added unless an equal one is there.
+    /// The number of an item; adds it unless an equal one exists.
     pub fn number(&mut self, item: T) -> usize {
         *self.known.entry(item).or_insert_with_key(|item| {
             self.items.push(item.clone());

@@ -165,7 +165,7 @@ fn start(netlist: &Netlist, id: NetId) -> Option<bool> {
 #[derive(Clone, Debug)]
 pub struct Delayed {
     logic: Logic,
-    /// Of each cell of the logic, in cycles.
+    /// The delay of each cell, in cycles.
     delays: Vec<usize>,
     /// The values of all nets by slot in the last cycles, the latest first.
     past: VecDeque<Vec<bool>>,

@@ -66,7 +66,7 @@ impl Loops {
     }
 }
 
-/// `rest` has reached no node of the core.
+/// `rest` must not contain a node of the core yet.
 fn memory_of(netlist: &Netlist, core: &[NetId], rest: &mut Components) -> Vec<NetId> {
     let inside = |id: &NetId| core.binary_search(id).is_ok();
     let listeners = |id: NetId| netlist.fanout(id).into_iter().map(|(listener, _)| listener);

@@ -40,7 +40,7 @@ impl Ternary {
     }
 }
 
-/// From any stable state, by one switch of an input; `None` if there are too many states to try all.
+/// The races after one switch of an input in any stable state; `None` if there are too many states to try.
 pub fn races(netlist: &Netlist) -> Option<Vec<Race>> {
     let loops = Loops::memory(netlist);
     let memory = loops.cores().concat();

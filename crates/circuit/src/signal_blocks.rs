@@ -61,7 +61,7 @@ impl SignalBlocks {
     }
 }
 
-/// For the same random inputs; a signal and its opposite have the same.
+/// The values of both networks for the same random inputs, the same for a signal and its inverse.
 fn samples(source: &Network, made: &CellNetwork, ports: &[usize]) -> (Vec<[u64; WORDS]>, Vec<[u64; WORDS]>) {
     let mut plain = Network::new(made.inputs);
     let mut signals: Vec<Signal> = (0..(2 + made.inputs) as Signal).collect();

@@ -35,7 +35,7 @@ const RATED: usize = 96;
 
 const RATING_VOTES: usize = 11;
 
-/// One row of so many rates the divisions; these are learned from the others.
+/// One of so many rows rates the divisions, which are learned from the other rows.
 const RATING: usize = 4;
 
 /// How often a choice of a code begins at random, and how many changes it then tries.

@@ -407,8 +407,8 @@ impl Learner {
         true
     }
 
-    /// Does the next portion of a method that is tried, after the choices for the bits before. Returns the best method
-    /// after the last.
+    /// Does a portion of the trial of a method. `before` are the choices for earlier bits. Returns the best method
+    /// at the end.
     fn try_method(&self, trial: &mut Trial, before: &[BitChoice]) -> Option<BitChoice> {
         let Trial { parts, fitting, methods, tried, found } = trial;
         let method = fitting.method();

@@ -54,7 +54,7 @@ impl LearningMethod {
         all
     }
 
-    /// A tree smaller than this one, or than all that are tried; `None` if it would ask nothing of so many rows.
+    /// A smaller tree than this one, or than all candidates; `None` if it would have no question for so many rows.
     pub fn smaller_tree(self, rows: usize) -> Option<Self> {
         let leaf = if let Self::Tree { leaf, .. } = self { 2 * leaf } else { 2 * MOST_LEAF };
         (2 * leaf <= rows).then_some(Self::Tree { leaf, fringes: 0 })

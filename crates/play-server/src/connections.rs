@@ -1,5 +1,4 @@
-//! The connections of a server, a thread for each. One without a request is closed after some time; if there are too
-//! many, the oldest is closed.
+//! The connections of a server, each with a thread. If there are too many without a socket, the oldest is closed.
 
 use std::collections::VecDeque;
 use std::io::{self, Read, Write};
@@ -20,7 +19,7 @@ pub(super) struct SharedStream(Arc<Ends>);
 struct Ends {
     stream: TcpStream,
     writing: Mutex<()>,
-    /// Whether it is one of those that carry requests.
+    /// Whether it carries a request, and is not a socket of a page.
     counts: AtomicBool,
 }
 
@@ -83,7 +82,7 @@ pub(super) fn serve(
         }
         let (wire, answer) = (SharedStream::new(stream), answer.clone());
         open.push_back(Arc::downgrade(&wire.0));
-        // Without a thread for it, it is closed.
+        // If no thread can be started, the connection is closed.
         let _ = thread::Builder::new().spawn(move || answer(wire));
     }
 }

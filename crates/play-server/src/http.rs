@@ -15,7 +15,7 @@ use crate::connections::SharedStream;
 /// The time by which the head of a request must be complete.
 pub(super) const PATIENCE: Duration = Duration::from_secs(10);
 const MOST_HEAD: usize = 16 << 10;
-/// What is read of a sender that still sends while it should read its answer.
+/// The most bytes read from a client that keeps sending while it should read its answer.
 const MOST_REST: usize = 1 << 20;
 
 pub(super) type HttpAnswer = Response<Vec<u8>>;
@@ -32,13 +32,13 @@ pub(super) fn content(kind: &'static str, bytes: impl Into<Vec<u8>>) -> HttpAnsw
     answer
 }
 
-/// Reads a request and the bytes after its head; or the status to refuse it with, if anybody may still read that.
+/// Reads a request and the bytes after its head. The error is the status to answer, or `None` if the client is gone.
 pub(super) fn read(wire: &SharedStream, patience: Duration) -> Result<(Request, Vec<u8>), Option<StatusCode>> {
     let end = Instant::now() + patience;
     let (mut head, mut part) = (Vec::new(), [0; 4096]);
     loop {
         let left = end.saturating_duration_since(Instant::now());
-        // A time of zero would be none.
+        // Zero would mean no timeout.
         wire.stream().set_read_timeout(Some(left.max(Duration::from_millis(1)))).map_err(|_| None)?;
         let size = wire.stream().read(&mut part).ok().filter(|&size| size > 0 && !left.is_zero()).ok_or(None)?;
         head.extend_from_slice(&part[..size]);
@@ -62,7 +62,7 @@ pub(super) fn write(mut wire: SharedStream, mut answer: HttpAnswer) {
     if wire.write_all(&bytes).is_err() || wire.stream().shutdown(Shutdown::Write).is_err() {
         return;
     }
-    // A connection that is closed with unread bytes loses its answer.
+    // Closing a connection with unread bytes discards the answer.
     let _ = std::io::copy(&mut wire.stream().take(MOST_REST as u64), &mut std::io::sink());
 }
 

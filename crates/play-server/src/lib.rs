@@ -138,7 +138,7 @@ impl PlayServer {
                 thread::sleep(LOOK);
             }
             stop.store(true, Ordering::Relaxed);
-            // A last connection ends the wait for one.
+            // `accept` returns only for a connection.
             let _ = listener.local_addr().and_then(|address| TcpStream::connect(reachable(address)));
         });
     }

@@ -22,7 +22,7 @@ const FULL: &str = "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\"
                     <p>Close a page of it that nobody uses. This one tries again every five seconds.</p>\n";
 
 pub(super) fn answer(served: &Arc<Served>, wire: SharedStream) {
-    // Small messages go out at once.
+    // Small messages are not delayed.
     let _ = wire.stream().set_nodelay(true);
     let (request, rest) = match http::read(&wire, PATIENCE) {
         Ok(read) => read,
@@ -31,7 +31,7 @@ pub(super) fn answer(served: &Arc<Served>, wire: SharedStream) {
     };
     let path = request.uri().path().split('/').skip(1).collect::<Vec<_>>();
     let (known, taught) = (served.knows(path[0]), served.taught(path[0]));
-    // A target may name a host, too.
+    // The request target may name a host, too.
     let is_here = request.uri().authority().is_none_or(|host| served.is_own(host.as_str()));
     let answer = match (known || taught.is_some(), is_here && served.trusts(request.headers())) {
         (true, true) => match (taught, &path[1..]) {

@@ -74,7 +74,7 @@ pub(super) fn pump(
 ) {
     let most = Some(Limit::PageMessage.most() as usize);
     let config = Some(WebSocketConfig::default().max_message_size(most).max_frame_size(most));
-    // Two views of one socket: what one of them writes is never within what the other does.
+    // Two ends of one connection; writes do not mix, because `SharedStream` writes each buffer as a whole.
     let mut writer = WebSocket::from_raw_socket(wire.clone(), Role::Server, config);
     let mut reader = WebSocket::from_partially_read(wire.clone(), rest, Role::Server, config);
     if wire.stream().set_read_timeout(None).is_err() || wire.stream().set_write_timeout(Some(PATIENCE)).is_err() {
@@ -89,7 +89,7 @@ pub(super) fn pump(
             closed.close();
         });
         read(&mut reader, &requests, all);
-        // Their receiver ends the messages that go out.
+        // Without senders the visit ends, and with it the outgoing messages.
         drop(requests);
         wire.close();
     });

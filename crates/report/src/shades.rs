@@ -33,7 +33,7 @@ impl Shades {
     }
 }
 
-/// The most frequent first: colors that differ from those before by the smallest difference with which they fit.
+/// Colors, the most frequent first, as close together as fits into a palette.
 fn palette(shades: &[Shade]) -> Vec<Shade> {
     let (mut low, mut high) = (1, u16::from(u8::MAX));
     let mut found = Vec::new();

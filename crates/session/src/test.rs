@@ -290,7 +290,7 @@ impl TestCase {
         Some(PhysicalTest { compiled: timed.compiled, inputs, ends })
     }
 
-    /// The paper's world at the level of logic.
+    /// The world of the swarm; at the level of logic the paper's.
     pub fn world(&self) -> PhysicsWorld {
         self.timed().map_or_else(PhysicsWorld::default, |timed| timed.compiled.plan.world.world)
     }
@@ -317,7 +317,7 @@ impl TestCase {
         Some(SwarmTask::of(assembly, timed.inputs(timed.rows.len()), plan.window as usize))
     }
 
-    /// There is no trace. Panics if the bits belong to another swarm, or the test has none.
+    /// Judges bits that were simulated elsewhere; the run has no trace. Panics if they belong to another swarm.
     pub fn judge(self, bits: &SwarmBits) -> TestRun {
         let timed = self.timed().expect("a test in physics");
         let inputs = timed.inputs(timed.rows.len());

@@ -40,7 +40,7 @@ pub(super) fn map_waves(
 }
 
 /// The first row is before the first edge of the clock, each other one edge; without state each row is a step.
-/// `clock` is an input, and whether it makes a step when it rises.
+/// `clock` is an input, and whether its rising edge makes a step.
 pub(super) fn steps(
     test: &CircuitTest,
     rows: &[TestRow],

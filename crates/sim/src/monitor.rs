@@ -21,7 +21,7 @@ impl Monitor {
         self.env_steps.load(Ordering::Relaxed)
     }
 
-    /// Also those that start later. Each gets the fault [`nbc_base::model::FaultKind::Stopped`].
+    /// Stops all simulations, also later ones, with the fault [`nbc_base::model::FaultKind::Stopped`].
     pub fn stop(&self) {
         self.stop.raise();
     }

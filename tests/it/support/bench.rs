@@ -138,7 +138,7 @@ impl Bench {
         ran
     }
 
-    pub fn told(&self, words: &(impl Words + ?Sized), text: &str) -> Ran {
+    pub fn with_input(&self, words: &(impl Words + ?Sized), text: &str) -> Ran {
         let mut command = self.command(words);
         let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();

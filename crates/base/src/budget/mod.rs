@@ -1,5 +1,5 @@
-//! One budget for everything that a text from outside can make: it is asked before anything is unfolded, so that no
-//! small text takes all memory or all time of a process that others use, too.
+//! One budget for everything that an input can expand to. It is checked before anything is expanded, so that a small
+//! input cannot take all memory or time of a shared process.
 
 mod limit;
 mod wording;

@@ -46,7 +46,7 @@ impl Builder<'_> {
         exact.iter().filter_map(|signals| warning(self.module(id), signals)).collect()
     }
 
-    /// Each module once; nothing if that takes too many steps.
+    /// Visits each module once; `None` after too many steps.
     fn find_passes(&mut self, id: ModuleId) -> Option<()> {
         let inside: BTreeSet<ModuleId> = self.module(id).sites.iter().map(|site| site.module).collect();
         for site in inside {
@@ -69,7 +69,7 @@ impl Builder<'_> {
         taken.ok()
     }
 
-    /// Each circuit inside is a node after the signals, unless it is known what it passes.
+    /// Nodes are the signals, and then the circuits inside whose passes are not known.
     fn graph(&self, module: &Module, exact: Option<&Passes>) -> DiGraph<(), ()> {
         let signals = module.signals.len();
         let mut graph = DiGraph::with_capacity(signals + module.sites.len(), 2 * signals);

@@ -42,7 +42,7 @@ impl Side<'_> {
         self.logic.cell(cell).and_then(|cell| cell.start)
     }
 
-    /// As far as they are known: start values, and what follows from them with inputs of 0, whatever the delays.
+    /// The known start values, and those that follow from them with all inputs 0, whatever the delays.
     fn starts(&self, network: &Network) -> Vec<TernaryBit> {
         let mut starts: Vec<TernaryBit> = self.cuts.iter().map(|&cut| self.start(cut)).collect();
         let first = network.outputs.len() - self.cuts.len();
@@ -133,7 +133,7 @@ impl StateRelation<'_> {
         Ok(())
     }
 
-    /// A start that follows from others may be unknown.
+    /// Compares the start values of both sides, where both are known.
     fn cuts_start(&self, one: &Network, two: &Network) -> Result<(), ProofError> {
         let Self { reference, result, .. } = self;
         let [starts, others] = [(reference, one), (result, two)].map(|(side, network)| side.starts(network));

@@ -285,7 +285,7 @@ impl Frames {
         reached
     }
 
-    /// Leaves out more states too as far as that holds; returns the last set that the cube is left out of.
+    /// Excludes the cube, and more states where that holds, and returns the last frame that excludes it.
     fn learn(&mut self, system: &TransitionSystem, frame: usize, cube: Cube) -> usize {
         let cube = self.wider(system, frame, cube);
         let mut last = frame;
@@ -353,7 +353,7 @@ impl Frames {
 
 enum Reached {
     Open,
-    /// Not from any state, and neither is the wider cube.
+    /// No state reaches the cube; the wider cube is unreachable, too.
     Never(Cube),
     From {
         state: Vec<bool>,

@@ -37,12 +37,12 @@ pub(super) struct Machine {
 enum MachineKind {
     /// Between edges: its inputs are the ports and the state, its outputs the ports and the next state.
     Clocked(Network),
-    /// One time step: ports and cells to ports and cells, the state. After so many nothing changes any more.
+    /// One time step, from ports and cells to ports and cells, and the number of steps after which nothing changes.
     Settling(Network, usize),
 }
 
 impl Machine {
-    /// Inputs are only those that make all outputs of `allowed` 1, whose inputs are the input ports.
+    /// `allowed` reads the input ports; only inputs for which all its outputs are 1 count.
     ///
     /// # Panics
     /// When the netlist is not well formed.
@@ -154,7 +154,7 @@ fn settled(
     (0..time).fold(cells.to_vec(), |cells, _| applied(graph, step, inputs, &cells).split_off(outputs))
 }
 
-/// From any settled state and from the start, for all inputs that are allowed.
+/// The most time steps until the circuit settles, from the start and from any settled state, for all allowed inputs.
 fn settling_time(step: &Network, allowed: &Network, start: &[StateBit], cancel: &CancelFlag) -> Result<usize, NoSteps> {
     let inputs = allowed.inputs;
     // The inputs before, the inputs now, and the cells.

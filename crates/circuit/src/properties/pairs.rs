@@ -24,7 +24,7 @@ const MOST: usize = 50_000;
 
 const MOST_WORK: u64 = 50_000;
 
-/// Each leaves out the start, and no step enters one from outside of all; none if that takes too long to prove.
+/// Cubes without the start state that no step enters from outside of them; empty if the proof takes too long.
 pub(super) fn never_together(system: &TransitionSystem, cancel: &CancelFlag) -> (Vec<Cube>, u64) {
     let relevant = system.relevant();
     if relevant.len() > MOST_REGISTERS {
@@ -42,7 +42,7 @@ pub(super) fn never_together(system: &TransitionSystem, cancel: &CancelFlag) -> 
     (cubes, work)
 }
 
-/// `false` if the work ended before all were tried. What is removed leaves states in which others may be entered.
+/// Keeps the cubes that no step enters from outside of all kept ones. Returns false if the work ended early.
 fn retain_kept(system: &TransitionSystem, cubes: &mut Vec<Cube>, work: &mut u64, cancel: &CancelFlag) -> bool {
     let mut step = Unrolled::new(false, cancel.clone());
     system.constraints.iter().for_each(|&constraint| step.require(system, 0, constraint));
@@ -114,7 +114,7 @@ impl History {
         history
     }
 
-    /// Of one register, and of two of which none is in another; none if they are too many.
+    /// Cubes of one register, and of two that no smaller cube covers; empty if there are too many.
     fn candidates(&self, system: &TransitionSystem) -> Vec<Cube> {
         let registers =
             |cube: &[ValuedBit]| -> Cube { cube.iter().map(|&(place, value)| (self.relevant[place], value)).collect() };

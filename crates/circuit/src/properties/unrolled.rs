@@ -9,7 +9,7 @@ use nbc_base::source::CancelFlag;
 
 pub(super) struct Unrolled {
     pub(super) solver: ClauseSolver,
-    /// Otherwise the first state may be any.
+    /// If false, the first state may be any.
     from_start: bool,
     steps: Vec<Vec<Option<Lit>>>,
 }

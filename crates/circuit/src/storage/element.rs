@@ -34,7 +34,7 @@ pub(super) fn elements(netlist: &Netlist, loops: &Loops) -> Vec<Vec<NetId>> {
     elements.into_iter().filter(|element| !element.is_empty()).collect()
 }
 
-/// Only the cell itself if there is no short one.
+/// The cells of the shortest loop through `start`; only `start` if there is no short loop.
 fn shortest_loop(netlist: &Netlist, start: NetId) -> Vec<NetId> {
     let mut from: BTreeMap<NetId, NetId> = BTreeMap::new();
     let mut level = vec![start];

@@ -137,7 +137,7 @@ fn closing(cone: &Cone) -> Option<(NetId, bool)> {
     both.into_iter().find(|&(net, value)| closes(net, value) && !closes(net, !value)).or_else(|| holding(cone))
 }
 
-/// The input, with its value, by which a cell of three inputs shows what it showed before.
+/// The input and its value at which a cell of three inputs keeps its output.
 fn holding(cone: &Cone) -> Option<(NetId, bool)> {
     let &[cell] = cone.element else { return None };
     let holds = |net: NetId, value: bool| {

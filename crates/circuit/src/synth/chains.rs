@@ -40,7 +40,7 @@ pub fn balanced(network: &Network) -> Option<Network> {
     Some(tree.network.swept())
 }
 
-/// In order, each with the long chain that ends in it. `None` if there are no chains, or too many.
+/// The signals in order, each with the long chain that ends in it. `None` if there are no chains, or too many.
 fn chains(network: &Network, levels: &[u32]) -> Option<Vec<(Signal, Option<Chain>)>> {
     let mut is_needed = vec![false; network.signals()];
     network.outputs.iter().for_each(|&output| is_needed[output as usize] = true);

@@ -82,7 +82,7 @@ impl Conjunctions {
         2 * signal + turned
     }
 
-    /// Read directly or inverted; an output counts as two.
+    /// The readers of each signal, direct or inverted; an output counts as two.
     fn readers(&self, network: &Network) -> Vec<u32> {
         let mut readers = vec![0; network.signals()];
         for gate in network.gates.iter().filter(|gate| !is_alias(gate)) {

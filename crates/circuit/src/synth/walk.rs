@@ -82,7 +82,7 @@ pub fn improve(
     if walk.graph.cost == best_cost { walk.graph.network() } else { best }
 }
 
-/// The end of the walk, be it more expensive or not: one of `plan.climb` visits may add a cell.
+/// The network at the end of a walk, which may cost more: one of `plan.climb` visits may add a cell.
 pub fn wander(
     network: &Network,
     prices: &Prices,

@@ -24,7 +24,7 @@ pub struct Held {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WhyKept {
     NotOneBit,
-    /// Such as where its data depend on what opens it.
+    /// For example, its data depend on the net that opens it.
     NotRecognized,
 }
 

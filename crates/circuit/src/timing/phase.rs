@@ -171,7 +171,7 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Races<'_, F> {
     }
 }
 
-/// In cycles, when the sources switch, by ways that avoid some nets: one for each cell on the way.
+/// The earliest change of each net after the sources switch, one cycle for each cell, on paths that avoid some nets.
 pub(super) fn earliest(
     netlist: &Netlist,
     storage: &Storage,

@@ -113,7 +113,7 @@ impl<'g> Balancing<'g> {
         enough
     }
 
-    /// As few as the work suffices for, and their number; `None` if a step of that many beats is too short.
+    /// Phases with as few buffers as the search finds, and that number; `None` if `period` beats are too short.
     pub fn fewest_buffers(&self, period: u32) -> Option<(Phases, usize)> {
         let mut phase = self.earliest(period)?;
         let most = (MOST_WORK / self.bounds.len().max(1)).max(10);

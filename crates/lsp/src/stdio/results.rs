@@ -12,7 +12,7 @@ pub(super) struct ResultFolder {
     made: Option<(PathBuf, FolderLock)>,
 }
 
-/// The number of the process follows.
+/// Followed by the process id.
 const PREFIX: &str = "results-";
 
 /// A server that starts may remove the folder before it is locked.

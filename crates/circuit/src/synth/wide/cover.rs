@@ -126,7 +126,7 @@ impl<'a> Choice<'a> {
         }
     }
 
-    /// One reader more or less of a signal, and of those that its cell needs; returns the cost that comes or goes.
+    /// Counts a reader of a signal more or less, and of the signals that its cell needs; returns the change of cost.
     fn count(&mut self, signal: Signal, more: bool) -> u32 {
         let (mut cost, mut pending) = (0, vec![signal]);
         while let Some(signal) = pending.pop() {
@@ -159,7 +159,7 @@ impl<'a> Choice<'a> {
         }
     }
 
-    /// In their order, with the other choices as they are. Where the objective is the delay, no output becomes later.
+    /// Improves one choice after the other. With the objective delay, no output becomes later.
     fn choose_exactly(&mut self) {
         let first = 2 + self.network.inputs;
         let required = self.required();

@@ -43,7 +43,7 @@ impl LaneGroup {
         }
     }
 
-    /// Until the first run that had something to do is done. Calls `record` with each run after each of its env steps.
+    /// Advances until the first run ends. Calls `record` with each run after each of its env steps.
     pub fn advance(&mut self, world: &World, mut record: impl FnMut(usize, &Run)) {
         if world.is_stopped() {
             return self.stop();

@@ -27,7 +27,7 @@ impl Frame {
     }
 }
 
-/// A bottom or right side without a voxel beyond it that has it as top or left side; and a driven left side.
+/// A bottom or right side that is no other voxel's top or left side, or a driven left side.
 #[derive(Clone, Copy, Debug)]
 pub struct Rim {
     /// The end with the lower number: a mass.
@@ -36,7 +36,7 @@ pub struct Rim {
     pub aim: u32,
 }
 
-/// Between which corners each runs, the earlier mass first. The kernel of devices names springs by these places.
+/// The corners that each spring of a voxel connects, the earlier mass first. The OpenCL kernel uses this order.
 pub const FRAME: [[usize; 2]; 4] = [[0, 1], [0, 3], [0, 2], [1, 3]];
 
 #[derive(Clone, Copy, Debug)]

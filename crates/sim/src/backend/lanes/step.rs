@@ -36,7 +36,7 @@ pub fn env_step<R: Real, K: Stiffness<R>>(batch: &mut Batch<R, K>) {
     }
 }
 
-/// From its later to its earlier end; the length squared, and a first estimate of one over the length.
+/// The vector from the later to the earlier end, its length squared, and a first estimate of 1 / length.
 #[derive(Clone, Copy)]
 struct Measure<R> {
     r: Vector<R>,

@@ -176,7 +176,7 @@ fn tile(voxel: &Voxel, masses: &[usize]) -> [u16; 7] {
     [a, b, c, d, sides, voxel.row as u16, voxel.column as u16]
 }
 
-/// Each is one level after the last earlier voxel with a mass in common, so a level can be processed at once.
+/// Rigid voxels by level: one more than that of the last earlier voxel that shares a mass. A level is done at once.
 fn rigid_levels(body: &Lattice, masses: &[usize]) -> Vec<Vec<[usize; CORNERS]>> {
     let mut levels: Vec<Vec<[usize; CORNERS]>> = Vec::new();
     let mut next = vec![0; masses.len()];
