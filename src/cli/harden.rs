@@ -28,7 +28,7 @@ pub(super) struct HardenArguments {
 }
 
 impl HardenArguments {
-    /// Finds robots to leave out: none if hardening is not asked for, `None` after an interruption.
+    /// Finds robots to leave out. The list is empty if hardening is not asked for; an interruption returns `None`.
     pub(super) fn find(
         &self,
         session: &Session,

@@ -114,7 +114,8 @@ impl CodeFitting {
         self.shape
     }
 
-    /// Rates a division, chooses the code, or learns a vote; false when all is done.
+    /// Does the next piece of work: rates a division, chooses the code, or learns a vote. Returns false when all is
+    /// done.
     pub fn advance(&mut self, classes: &Classes, seed: u64, port: usize) -> bool {
         if let Some(&division) = self.divisions.get(self.sides.len()) {
             self.sides.push(rated(classes, &self.features, division));

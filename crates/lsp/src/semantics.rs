@@ -29,7 +29,7 @@ const TYPES: [&str; 13] = [
 /// In the order of their bits.
 const MODIFIERS: [&str; 2] = ["declaration", "defaultLibrary"];
 
-/// Keywords where they have no other meaning.
+/// Words that are keywords only where they are not names.
 const WORDS: [&str; 21] = [
     "against", "all", "always", "assume", "at", "bins", "cycles", "deg", "ever", "from", "inputs", "least", "match",
     "most", "never", "repeat", "rows", "steps", "until", "with", "within",

@@ -29,7 +29,7 @@ impl Default for HintSettings {
     }
 }
 
-/// Clients that show the source of Markdown, in which a picture would be pages of digits.
+/// Clients that show Markdown as plain text, where a picture would be pages of digits.
 const WITHOUT_PICTURES: [&str; 5] = ["neovim", "vim", "helix", "emacs", "kate"];
 
 impl Settings {

@@ -45,7 +45,7 @@ impl TextChecker {
         self.with(job, |session| session.checked(path))
     }
 
-    /// Others wait meanwhile, so that a page translates one Verilog file at a time.
+    /// Gives the session to `work` alone. Other calls wait, so a page translates one Verilog file at a time.
     pub(super) fn with<R>(&self, job: &Job, work: impl FnOnce(&mut Session) -> R) -> Result<R, Refused> {
         let mut session = lock(&self.session);
         job.check()?;

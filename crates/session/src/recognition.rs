@@ -95,7 +95,7 @@ impl Recognition {
         Ok(Self { simulator, evolution: found.clone(), schedule: shown.clone(), elites, walked })
     }
 
-    /// Images that all bodies have seen together, and that they will have seen.
+    /// How many images the bodies have seen so far, and how many they will have seen at the end, all bodies together.
     pub fn progress(&self) -> (u64, u64) {
         let done = self.walked.iter().map(|walked| walked.len() as u64).sum();
         (done, (self.elites.len() * self.schedule.schedule.spells.len()) as u64)

@@ -81,7 +81,7 @@ fn fault(file: &SourceFile, rows: &[String], error: &BodyError) -> Diagnostic {
     wording::no_body(file, error, span)
 }
 
-/// Found by walking from row to row after the key; `None` for other notations of rows.
+/// Finds a row by searching for one row after another; `None` if rows are written in another notation.
 fn row_span(file: &SourceFile, body: Span, rows: &[String], wanted: usize) -> Option<Span> {
     let mut at = body.range().end;
     for row in &rows[..wanted] {

@@ -14,7 +14,8 @@ const STIMULI: usize = 2;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImageDistance {
-    /// By pattern, the number of the set: of behaviors that tell sets apart, that with the greatest least distance.
+    /// The way in which the body walks before each set; a pattern is the number of a set. Of the behaviors that tell
+    /// sets apart, it is the one with the greatest least distance.
     pub behavior: Behavior,
     /// The least distance in the direction of the behavior, in voxels; negative if the body walked the other way.
     pub least: f64,

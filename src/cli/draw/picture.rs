@@ -48,7 +48,6 @@ pub(super) enum FilmFormat {
     Gif,
 }
 
-/// Draws a subject.
 type Draw<S> = fn(&S, &DrawRequest) -> Result<Drawn, Failure>;
 type DrawProgram = fn(&DrawRequest) -> Result<Drawn, Failure>;
 

@@ -43,12 +43,12 @@ fn progress_gaps(path: &Path, damage: &str, help: impl Into<String>) -> Diagnost
     Diagnostic { severity: Severity::Warning, ..fault }.with_help(help)
 }
 
-/// Missing lines of past generations, without which curves are drawn.
+/// Warns that lines of past generations are missing; curves are drawn without them.
 pub(in crate::cli) fn gaps_in_curves(path: &Path, damage: &str) -> Diagnostic {
     progress_gaps(path, damage, "curves over time leave them out")
 }
 
-/// Missing lines of past generations, without which a run is resumed; `kept` is the path of the damaged file.
+/// Warns that lines of past generations are missing; the run goes on without them. `kept` is the damaged file.
 pub(super) fn gaps_in_run(path: &Path, damage: &str, kept: Option<&Path>) -> Diagnostic {
     let kept = kept.map_or_else(String::new, |kept| format!("; the damaged file is kept as `{}`", kept.display()));
     progress_gaps(path, damage, format!("the run continues without them{kept}"))

@@ -21,7 +21,7 @@ const FILE: &str = "measured.jsonl";
 pub(super) struct Measured<'a> {
     executor: &'a dyn Executor,
     interrupt: &'a Interrupt,
-    /// Tasks are done elsewhere, where many are done at once.
+    /// Whether all tasks are given to the executor at once, because workers or a device do many together.
     together: bool,
     path: PathBuf,
     is_new_folder: bool,

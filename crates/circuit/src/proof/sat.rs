@@ -15,8 +15,9 @@ use nbc_base::source::CancelFlag;
 
 const WORDS: usize = 32;
 
-/// Patterns that are simulated together, and those of them in a word, filled up with patterns that differ little.
+/// Patterns that are simulated together.
 const BATCH: usize = 16;
+/// Of these, patterns in one word of 64 bits. The other bits are patterns that differ little from them.
 const IN_A_WORD: usize = 4;
 
 /// The most clauses learned to merge two gates: what is hard to see there may be easy at the outputs.

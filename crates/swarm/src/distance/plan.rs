@@ -18,8 +18,9 @@ pub(super) enum Walk {
     Long,
 }
 
-/// Simulations under the missing patterns, in this order, until the body is decided, or the rest of the long one.
-/// If it walks as its parent does, it needs `likely` patterns and `legs` simulations in all, each stretch counted.
+/// What to simulate next: the missing patterns in this order, until the body is decided, or the rest of the long
+/// simulation. A body that walks as its parent does needs `likely` patterns, and `legs` simulations in all, where each
+/// stretch counts as one.
 #[derive(Debug)]
 pub(super) enum Next {
     Fixed { missing: Vec<Pattern>, likely: usize, legs: usize },

@@ -7,7 +7,8 @@ use crate::evaluation::EvaluationProtocol;
 use crate::evolve::CandidateOutcome;
 use nbc_base::model::{Body, Fault, FaultKind, Pattern};
 
-/// Searches of small boxes draw bodies again after thousands of others. Both halves take some tens of megabytes.
+/// Bodies in each half. Searches of small boxes draw a body again after thousands of others. Both halves take some tens
+/// of megabytes.
 const HALF: usize = 50_000;
 
 /// What is known of a body. It depends on the protocol and the body alone.

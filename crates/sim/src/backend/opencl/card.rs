@@ -70,7 +70,7 @@ pub struct CardQueue<'a> {
     commands: Option<Commands>,
 }
 
-/// Types without padding, of which every pattern of bits is a value.
+/// A type without padding for which every pattern of bits is a value.
 pub trait Plain: Copy + Default {}
 
 impl Plain for u16 {}
