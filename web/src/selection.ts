@@ -1,11 +1,11 @@
 // What is pointed at and what is followed, the same in all views of a swarm.
 
 import { Observable } from "./observable";
-import type { BitSource } from "./protocol";
+import type { StimulusSource } from "./protocol";
 
 export class Selection {
   /** The source of the net that is pointed at. */
-  readonly pointed = new Observable<BitSource | null>(null);
+  readonly pointed = new Observable<StimulusSource | null>(null);
   /** The robot that is followed alone. */
   readonly followed = new Observable<number | null>(null);
   /** The robots of the part of the circuit that is open; null are all. */
@@ -14,7 +14,7 @@ export class Selection {
   /** Whether the stage shows all robots at once, however small. */
   readonly together = new Observable(false);
 
-  point(source: BitSource | null): void {
+  point(source: StimulusSource | null): void {
     if (!sameSource(source, this.pointed.value)) {
       this.pointed.set(source);
     }
@@ -32,7 +32,7 @@ export class Selection {
   }
 }
 
-export function sameSource(a: BitSource | null, b: BitSource | null): boolean {
+export function sameSource(a: StimulusSource | null, b: StimulusSource | null): boolean {
   if (a === null || b === null) {
     return a === b;
   }
