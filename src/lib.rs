@@ -167,7 +167,7 @@ pub fn program(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
 
 // From source to swarm.
 pub use nbc_base::diag::suggest::nearest;
-pub use nbc_base::diag::{Diagnostic, Diagnostics, Severity};
+pub use nbc_base::diag::{Diagnostic, Diagnostics, Finding, Severity};
 pub use nbc_base::source::{MemoryWorld, OverlayWorld, SourceWorld};
 pub use nbc_circuit::{CancelFlag, Effort, MappingObjective, Netlist, Node};
 #[cfg(feature = "disk")]
@@ -184,7 +184,7 @@ pub use nbc_session::{ClaimSearch, DecidedClaim, DecidedProperty};
 pub use nbc_session::{Experiment, TestCase, WorldResult, WorldRun, YieldTally, Yields};
 pub use nbc_session::{Hardened, Hardening, HardeningStep};
 pub use nbc_session::{RunList, RunReport, RunningTest, SimulationRun, TestOptions, TestRun};
-pub use nbc_swarm::{Level, Robustness, RowVerdict};
+pub use nbc_swarm::{Level, Robustness, RowVerdict, TestVerdict};
 
 // Physics.
 pub use nbc_base::model::{Body, Material, Palette};

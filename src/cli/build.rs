@@ -17,9 +17,10 @@ use nbc_base::diag::counted;
 use nbc_base::model::Column;
 use nbc_circuit::formats::{Design, blif, dot, verilog};
 use nbc_circuit::passes;
-use nbc_circuit::timing::fan_out;
+use nbc_circuit::timing::{PhaseTiming, fan_out};
+use nbc_circuit::waves::WaveTiming;
 use nbc_circuit::{CellLibrary, Memory, NetId, Netlist, Race, levels, races, rings};
-use nbc_session::report::{self, Document, PhaseTiming, Schema, WaveTiming};
+use nbc_session::report::{self, Document, Schema};
 use nbc_session::store::DiskWorld;
 use nbc_session::{CompileOptions, Hardened, Mapping, Session};
 
@@ -188,7 +189,7 @@ pub(super) struct BuiltCircuit<'a> {
     /// The robots that `--harden` left out.
     hardened: Option<Hardened>,
     /// Null if the circuit is too large to look for them.
-    races: Option<Vec<BuiltRace>>,
+    races: Option<Vec<Race>>,
 }
 
 #[derive(Serialize)]
@@ -215,15 +216,6 @@ struct BuiltCell {
     fan_out: usize,
 }
 
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-struct BuiltRace {
-    net: String,
-    input: String,
-    /// Whether it is the edge at which the input rises.
-    rises: bool,
-}
-
 impl<'a> BuiltCircuit<'a> {
     fn of(mapping: &'a Mapping, hardened: Hardened) -> Self {
         let Mapping { netlist: mapped, cells: library, kept, waves, .. } = mapping;
@@ -245,7 +237,6 @@ impl<'a> BuiltCircuit<'a> {
             slack: timing.slack(id),
             fan_out: fan_out[&id],
         });
-        let race = |race: Race| BuiltRace { net: name(&race.net), input: name(&race.input), rises: race.rises };
         let ports = |ids: &[NetId]| Column::group(&mapped.net_names(ids));
         Self {
             circuit: &mapped.name,
@@ -264,7 +255,7 @@ impl<'a> BuiltCircuit<'a> {
             proved: true,
             unproved_registers: mapping.unproved_registers,
             hardened: (!hardened.tried.is_empty()).then_some(hardened),
-            races: races.map(|races| races.into_iter().map(race).collect()),
+            races,
         }
     }
 }

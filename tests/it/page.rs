@@ -73,25 +73,7 @@ fn verdict(trace: &SwarmTrace) -> TestVerdict {
     let rows: Vec<TestRow> = [false, true, true].into_iter().enumerate().map(row).collect();
     let row_holds = vec![RowHold { hold: 8, needed: 8, rests: vec![true; test.output_bits().len()] }; 3];
     let rows = judge_swarm(&test, &rows, &row_holds, trace, &[4; 5]);
-    TestVerdict {
-        file: test.file,
-        line: test.line,
-        circuit: trace.circuit.clone(),
-        title: test.title,
-        swarm: None,
-        world: Some("paper".to_owned()),
-        is_world_named: false,
-        level: Level::Physics,
-        printed: None,
-        proof: None,
-        fault: None,
-        rows_from: None,
-        passed: rows.iter().all(|row| row.passed),
-        inputs: test.inputs,
-        outputs: test.outputs,
-        weak_robots: Vec::new(),
-        rows,
-    }
+    TestVerdict { world: Some("paper".to_owned()), ..TestVerdict::of(&test, Level::Physics, rows) }
 }
 
 pub fn assembly(trace: &SwarmTrace) -> Assembly {

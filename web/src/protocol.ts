@@ -1,4 +1,4 @@
-// Generated from the messages of crates/play: NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol
+// Generated from the messages of crates/play and the data of pages of results: NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol
 // docs/play-protocol.md describes them.
 
 /** The niches of an archive that have changed in a generation. */
@@ -13,13 +13,22 @@ export type ArchiveChange = {
 /** The name of an axis and its number of bins. */
 export type AxisEntry = [string, number];
 
-/** The character of a body over a few switches. */
-export type CharacterSketch = {
+/** The character of a robot as a gate, measured over switches of its inputs (docs/physics.md 14). */
+export type Character = {
+  /** Cycles for which an input pattern must be held so that the output is correct at the end of every hold. */
   clock: number,
-  errors: number,
-  glitches: number,
+  /** The share of `switches` with a wrong output at the end of a hold of `clock` cycles. */
+  error_rate: number,
+  /** The share of wrong cycles in holds whose output should not change. */
+  glitch_rate: number,
+  /** The smallest displacement in the correct direction at the end of a hold, in voxels per cycle; negative if an output was wrong. */
   margin: number,
+  radius?: SafeRadius,
+  /** Settle times, one entry for each of the transitions between different patterns: 12 of two stimuli, 56 of three. */
+  settle: Array<Transition>,
+  /** The number of random switches in which wrong outputs were counted. */
   switches: number,
+  /** Whether the body ever fell over. */
   topples: boolean,
 };
 
@@ -137,6 +146,21 @@ export type EncodedGait = {
   poses: string,
 };
 
+export type EvolutionData = {
+  axes: Array<PageAxis>,
+  behaviors: Array<PageBehavior>,
+  /** Cycles under each of them. */
+  cycles: number,
+  elites: Array<PageElite>,
+  /** What is shown of each image: rows from the top, 1 is black. */
+  images: Array<Array<Array<number>>>,
+  looks: Array<VoxelLook>,
+  /** Frames in a cycle. */
+  pace: number,
+  /** The patterns, or as many as there are images. */
+  patterns: Array<string>,
+};
+
 export type EvolutionEnd = {
   evaluations: number,
   generations: number,
@@ -181,6 +205,7 @@ export type FileText = {
   text: string,
 };
 
+/** A diagnostic for programs and pages, with file names, lines and columns. */
 export type Finding = {
   /** `nbc explain CODE` tells more. */
   code: string,
@@ -320,6 +345,40 @@ export type NicheEntry = {
 
 export type Nothing = Record<string, never>;
 
+export type PageAxis = {
+  bins: number,
+  word: string,
+};
+
+export type PageBehavior = {
+  function: string,
+  word: string,
+};
+
+/** A robot of a circuit. */
+export type PageCell = {
+  /** Words with their texts. */
+  about: Array<[string, string]>,
+  function: string,
+  net: string,
+  /** The nets that it senses. */
+  reads: Array<string>,
+};
+
+/** The best of a niche; there may have been no room for its gait. */
+export type PageElite = {
+  about: Array<[string, string]>,
+  behavior: string,
+  color: string,
+  fitness: [number, number],
+  function: string,
+  gait?: RecordedBody,
+  /** Its bin of each axis. */
+  niche: Array<number>,
+  /** Columns and rows. */
+  size: [number, number],
+};
+
 export type PaletteEntry = {
   about: string,
   /** Its character in the rows of bodies. */
@@ -352,7 +411,8 @@ export type PlayLimits = {
 };
 
 export type ProbeReport = {
-  character: CharacterSketch | null,
+  /** Over a few switches. */
+  character: Character | null,
   displacement: Array<number>,
   function: string,
   /** Under each pattern: 00, 01, 10 and 11, or 000 to 111. */
@@ -375,6 +435,57 @@ export type ProgramReport = {
 export type PropertyEntry = {
   line: number,
   property: string,
+};
+
+/** A body with its poses. */
+export type RecordedBody = {
+  /** The number of points. */
+  corners: number,
+  /** The base64 of hundredths of a voxel: x and y of each point, frame by frame. */
+  frames: string,
+  voxels: Array<[number, number, number, number, number]>,
+};
+
+/** A robot of a circuit. */
+export type RecordedCell = {
+  /** Words with their texts. */
+  about: Array<[string, string]>,
+  /** Hexadecimal digits of four cycles each, the first cycle highest. */
+  bits: string,
+  function: string,
+  net: string,
+  /** The nets that it senses. */
+  reads: Array<string>,
+};
+
+/** A body with its poses. */
+export type RecordedRobot = {
+  /** Its place among the cells. */
+  cell: number,
+  /** The number of points. */
+  corners: number,
+  /** The frame in which it became unstable. */
+  fault: number | null,
+  /** The base64 of hundredths of a voxel: x and y of each point, frame by frame. */
+  frames: string,
+  /** For each stimulus, a digit a cycle. */
+  sensed: Array<string>,
+  /** Columns and rows. */
+  size: [number, number],
+  voxels: Array<[number, number, number, number, number]>,
+};
+
+export type RecordedSwarm = {
+  cells: Array<RecordedCell>,
+  cycles: number,
+  inputs: Array<WaveRow>,
+  /** The cycles at which inputs change. */
+  marks: Array<number>,
+  outputs: Array<WaveRow>,
+  /** Frames in a cycle. */
+  pace: number,
+  robots: Array<RecordedRobot>,
+  schematic: SchematicPages,
 };
 
 export type Refusal = {
@@ -487,6 +598,24 @@ export type RowVerdict = {
   until?: number,
 };
 
+export type RunData = {
+  looks: Array<VoxelLook>,
+  swarms: Array<RecordedSwarm>,
+};
+
+/** How far a world may differ before a robot makes errors. */
+export type SafeRadius = {
+  /** The share of switches with a wrong output in the worlds of radius 1, if it was counted. */
+  error_rate?: number,
+  /** The largest factor of the changes up to which no output was wrong. */
+  radius: number,
+  seed: number,
+  /** The largest changes of the worlds at radius 1, such as `friction=10%,gravity=5%`. */
+  vary: string,
+  /** The number of worlds that were tried at each radius. */
+  worlds: number,
+};
+
 export type SchematicPages = {
   /** The bodies of the robots, as SVG. A group `body-K` of a sheet is the place of body `K`. */
   bodies: Array<string>,
@@ -528,6 +657,11 @@ export type SheetPage = {
   outer: number | null,
   /** The drawing: a group `cell-N` is robot `N`, `part-N` the box of sheet `N`, `net-NAME` the wires of a net, and `nets-N` those of several. */
   svg: string,
+};
+
+export type SheetsData = {
+  cells: Array<PageCell>,
+  schematic: SchematicPages,
 };
 
 /** An input that opens and closes latches. */
@@ -732,6 +866,13 @@ export type TextPlace = {
   line: number,
 };
 
+/** The settle time of one input transition. */
+export type Transition = {
+  cycles: number,
+  from: string,
+  to: string,
+};
+
 /** A `Value` as data. */
 export type Value = {
   /** The most significant bit first; `-` where nothing is expected or a robot failed. */
@@ -762,6 +903,18 @@ export type WaveRegister = {
   bits: Array<WaveBit>,
   name: string,
 };
+
+/** A row of a waveform, whose values apply `shift` cycles later. */
+export type WaveRow = {
+  /** The name of its color in the style sheet. */
+  color: string,
+  name: string,
+  shift: number,
+  values: WaveValues,
+};
+
+/** The digits of a bit, or the values of a bus. */
+export type WaveValues = string | Array<string>;
 
 /** A robot of a swarm with errors or a thin margin. */
 export type WeakRobot = {

@@ -26,11 +26,12 @@ test("a robot is marked with its wires, or with all before or after it", () => {
 });
 
 test("a niche of two axes has the fittest of all along the others", () => {
+  const fitness = (value: number): [number, number] => [value, 0];
   const elites = [
-    { behavior: "RL", niche: [0, 1, 0], fitness: [1] },
-    { behavior: "RL", niche: [0, 1, 2], fitness: [3] },
-    { behavior: "RL", niche: [0, 1, 1], fitness: [2] },
-    { behavior: "LR", niche: [0, 1, 0], fitness: [0] },
+    { behavior: "RL", niche: [0, 1, 0], fitness: fitness(1) },
+    { behavior: "RL", niche: [0, 1, 2], fitness: fitness(3) },
+    { behavior: "RL", niche: [0, 1, 1], fitness: fitness(2) },
+    { behavior: "LR", niche: [0, 1, 0], fitness: fitness(0) },
   ];
   const best = fittest(elites, 0, 1);
   assert.deepEqual(
@@ -45,7 +46,7 @@ test("a niche of two axes has the fittest of all along the others", () => {
 
 test("a recorded body walks from frame to frame", () => {
   const frames = Buffer.from(Int16Array.from([0, 0, 50, 10, 100, 20]).buffer).toString("base64");
-  const gait = gaitOf({ size: [1, 1], voxels: [], corners: 1, frames }, 2);
+  const gait = gaitOf({ voxels: [], corners: 1, frames }, 2);
   assert.equal(gait.cycles, 1);
   assert.deepEqual([...outlineAt(gait, 0.25)], [0.25, 0.05].map(Math.fround));
   assert.deepEqual([...outlineAt(gait, 5)], [1, 0.2].map(Math.fround));

@@ -10,6 +10,7 @@ use std::ops::Range;
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use serde::Serialize;
 
 use crate::formats::{Design, Forcing, Register, RegisterKind};
 use crate::network::{Gate, Network, Signal, View};
@@ -23,10 +24,15 @@ const LANES: usize = 64;
 
 const WORDS: usize = 8;
 
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// Registers that a circuit does not need.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Removed {
-    pub constant: Vec<(String, bool)>,
-    pub equal: Vec<(String, String)>,
+    /// Those that keep their start value, with this value.
+    pub constant: BTreeMap<String, u8>,
+    /// Those that always equal another, with the other.
+    pub equal: BTreeMap<String, String>,
+    /// Those that no output depends on.
     pub unused: Vec<String>,
 }
 
@@ -64,16 +70,14 @@ pub fn reduce(design: &Design) -> (Design, Removed) {
 pub fn prove(read: &Design, made: &Design, removed: &Removed) -> Result<Proof, ProofError> {
     let names = made.registers.iter().enumerate().map(|(at, register)| (register.name.as_str(), at));
     let places: BTreeMap<&str, usize> = names.collect();
-    let constant: BTreeMap<&str, bool> = removed.constant.iter().map(|(name, value)| (&**name, *value)).collect();
-    let leaders: BTreeMap<&str, &str> = removed.equal.iter().map(|(name, leader)| (&**name, &**leader)).collect();
     let numbers = read.registers.iter().enumerate().map(|(at, register)| (register.name.as_str(), at));
     let numbers: BTreeMap<&str, usize> = numbers.collect();
     let counterpart = |register: &Register| {
         let name = register.name.as_str();
-        if let Some(&value) = constant.get(name) {
-            return Counterpart::Constant(value);
+        if let Some(&value) = removed.constant.get(name) {
+            return Counterpart::Constant(value == 1);
         }
-        if let Some(&leader) = leaders.get(name).and_then(|leader| numbers.get(leader)) {
+        if let Some(&leader) = removed.equal.get(name).and_then(|leader| numbers.get(leader.as_str())) {
             return Counterpart::Like(leader);
         }
         places.get(name).map_or(Counterpart::Unused, |&at| Counterpart::Same(at))
@@ -311,9 +315,9 @@ impl<'d> RegisterClasses<'d> {
         for (at, register) in self.registers.iter().enumerate() {
             let name = register.name.clone();
             match self.register(self.leaders[at]) {
-                None => removed.constant.push((name, self.leaders[at] == 1)),
+                None => drop(removed.constant.insert(name, u8::from(self.leaders[at] == 1))),
                 Some(leader) if leader != at => {
-                    removed.equal.push((name, self.registers[leader].name.clone()));
+                    removed.equal.insert(name, self.registers[leader].name.clone());
                 }
                 Some(_) => {}
             }
@@ -419,7 +423,7 @@ mod tests {
     fn registers_that_keep_their_value_are_constant() {
         let design = machine(&[("a", Function::AND, "b"), ("b", Function::AND, "a")]);
         let (reduced, removed) = reduce(&design);
-        assert_eq!(removed.constant, [("a".to_owned(), false), ("b".to_owned(), false)]);
+        assert_eq!(removed.constant, [("a".to_owned(), 0), ("b".to_owned(), 0)].into());
         assert!(reduced.registers.is_empty() && reduced.logic.inputs().len() == 1);
     }
 
@@ -427,9 +431,9 @@ mod tests {
     fn registers_that_were_removed_wrongly_are_found() {
         let design = machine(&[("a", Function::XOR, "a"), ("b", Function::XOR, "b"), ("q", Function::AND, "b")]);
         let (reduced, removed) = reduce(&design);
-        assert_eq!(removed.equal, [("b".to_owned(), "a".to_owned())]);
+        assert_eq!(removed.equal, [("b".to_owned(), "a".to_owned())].into());
         assert!(prove(&design, &reduced, &removed).is_ok());
-        let constant = Removed { constant: vec![("b".to_owned(), false)], ..Removed::default() };
+        let constant = Removed { constant: [("b".to_owned(), 0)].into(), ..Removed::default() };
         let unused = Removed { unused: vec!["b".to_owned()], ..Removed::default() };
         for wrong in [constant, unused] {
             assert!(matches!(prove(&design, &reduced, &wrong), Err(ProofError::Different { .. })), "{wrong:?}");
@@ -449,7 +453,7 @@ mod tests {
         let design = machine(&[("a", Function::XOR, "a"), ("b", Function::XOR, "b"), ("q", Function::XOR, "b")]);
         let (reduced, removed) = reduce(&design);
         let others = ["b", "q"].map(|name| (name.to_owned(), "a".to_owned()));
-        assert_eq!(removed.equal, others);
+        assert_eq!(removed.equal, others.into());
         assert_eq!(reduced.registers.len(), 1);
     }
 

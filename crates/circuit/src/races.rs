@@ -4,7 +4,9 @@
 //! unknown, until no more cells do. Then every cell whose value is determined takes this value. A memory element that
 //! stays unknown has a race. Eichelberger, IBM Journal of Research and Development 9 (1965), 90-99.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Serialize;
 
 use crate::loops::Loops;
 use crate::network::counting_word;
@@ -13,10 +15,12 @@ use nbc_base::model::Function;
 
 const MOST_BITS: usize = 16;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Race {
-    pub net: NetId,
-    pub input: NetId,
+    pub net: String,
+    pub input: String,
+    /// Whether it is the edge at which the input rises.
     pub rises: bool,
 }
 
@@ -51,7 +55,7 @@ pub fn races(netlist: &Netlist) -> Option<Vec<Race>> {
     if bits > MOST_BITS {
         return None;
     }
-    let mut found = Vec::new();
+    let mut found = BTreeSet::new();
     for word in 0..(1u64 << bits).div_ceil(64) {
         let (values, stable) = at_rest(netlist, &loops, &memory, bits, word);
         for &input in netlist.inputs() {
@@ -59,13 +63,12 @@ pub fn races(netlist: &Netlist) -> Option<Vec<Race>> {
             for &net in &memory {
                 let either = end[&net].zero & end[&net].one & stable;
                 let races = [(either & values[&input].zero, true), (either & values[&input].one, false)];
-                found.extend(races.iter().filter(|race| race.0 != 0).map(|&(_, rises)| Race { net, input, rises }));
+                found.extend(races.iter().filter(|race| race.0 != 0).map(|&(_, rises)| (net, input, rises)));
             }
         }
     }
-    found.sort_unstable();
-    found.dedup();
-    Some(found)
+    let name = |net: NetId| netlist.net_name(net);
+    Some(found.into_iter().map(|(net, input, rises)| Race { net: name(net), input: name(input), rises }).collect())
 }
 
 type Values = BTreeMap<NetId, Ternary>;
@@ -151,10 +154,8 @@ mod tests {
 
     fn check(netlist: &Netlist, expected: &[&str]) {
         let races = races(netlist).unwrap();
-        let line = |race: &Race| {
-            let (input, net) = (netlist.net_name(race.input), netlist.net_name(race.net));
-            format!("{input} {} {net}", if race.rises { "rises" } else { "falls" })
-        };
+        let line =
+            |Race { net, input, rises }: &Race| format!("{input} {} {net}", if *rises { "rises" } else { "falls" });
         assert_eq!(races.iter().map(line).collect::<Vec<_>>(), expected);
     }
 

@@ -12,6 +12,7 @@ use crate::code::{Classes, CodeFitting, CodeShape};
 use crate::examples::{Examples, OutputRows};
 use crate::graph::{GateGraph, Literal};
 use crate::method::{Fitted, Fitting, FittingStep, LearningMethod};
+use nbc_base::model::Column;
 
 /// How a circuit is learned.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,9 +62,13 @@ pub struct Tried {
     pub ands: usize,
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LearnedOutput {
-    pub what: String,
+    pub name: String,
+    /// What the bit is, in words.
+    pub learned: String,
+    /// The methods that were tried, with their accuracy in rows that they had not seen.
     pub tried: Vec<Tried>,
 }
 
@@ -209,7 +214,10 @@ struct PortWork {
 #[derive(Clone, Debug)]
 pub struct Learner {
     options: LearnOptions,
+    /// The widths of the output ports.
     ports: Vec<usize>,
+    /// Those of the output bits.
+    names: Vec<String>,
     training: Examples,
     held_out: Examples,
     /// `None` when all ports are learned.
@@ -222,11 +230,10 @@ pub struct Learner {
 }
 
 impl Learner {
-    /// A learner of rows whose outputs are ports of these widths.
-    ///
-    /// # Panics
-    /// When there are no inputs, outputs or rows to learn from.
-    pub fn new(examples: &Examples, ports: &[usize], options: LearnOptions) -> Self {
+    /// Panics when there are no inputs, outputs or rows to learn from.
+    pub fn new(examples: &Examples, outputs: &[Column], options: LearnOptions) -> Self {
+        let ports: Vec<usize> = outputs.iter().map(|port| port.width).collect();
+        let names = outputs.iter().flat_map(Column::bits).collect();
         assert_eq!(ports.iter().sum::<usize>(), examples.outputs.len(), "the ports have all output bits");
         let mut groups: Vec<usize> = (0..examples.rows.div_ceil(options.group)).collect();
         groups.shuffle(&mut ChaCha8Rng::seed_from_u64(options.seed));
@@ -237,8 +244,9 @@ impl Learner {
         assert!(is_something, "inputs, outputs and rows to learn from");
         let (training, held_out) = (examples.pick(training), examples.pick(held));
         let graph = GateGraph::new(training.inputs.len());
-        let (ports, literals, outputs) = (ports.to_vec(), Vec::new(), Vec::new());
-        let mut learner = Self { options, ports, training, held_out, work: None, graph, literals, outputs, used: 0 };
+        let (literals, outputs) = (Vec::new(), Vec::new());
+        let mut learner =
+            Self { options, ports, names, training, held_out, work: None, graph, literals, outputs, used: 0 };
         learner.work = learner.port(0);
         learner
     }
@@ -317,8 +325,9 @@ impl Learner {
         }
         for (fitted, bit) in learned.into_iter().zip(&choices) {
             self.literals.push(self.graph.adopt(&fitted.graph, fitted.literal));
+            let name = self.names[self.outputs.len()].clone();
             let tried = bit.tried.iter().chain(&codes).cloned().collect();
-            self.outputs.push(LearnedOutput { what: fitted.what, tried });
+            self.outputs.push(LearnedOutput { name, learned: fitted.what, tried });
         }
         self.used += choices.iter().map(|bit| bit.gates).sum::<usize>();
         self.used = self.used.max(self.graph.ands(&self.literals));
@@ -569,7 +578,8 @@ mod tests {
 
     fn learned(examples: &Examples, ports: &[usize], options: LearnOptions) -> LearnedCircuit {
         let gates = options.gates;
-        let mut learner = Learner::new(examples, ports, options);
+        let outputs: Vec<Column> = ports.iter().map(|&width| Column::new("q", width)).collect();
+        let mut learner = Learner::new(examples, &outputs, options);
         while learner.advance() {}
         let circuit = learner.finish();
         assert!(circuit.ands() <= gates, "{} of {gates}", circuit.ands());

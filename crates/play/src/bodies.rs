@@ -2,9 +2,7 @@
 
 use crate::history::FRAMES;
 use crate::jobs::{Job, JobEnd};
-use crate::message::{
-    CharacterSketch, EncodedGait, KeptRobot, PaletteEntry, ProbeReport, RequestResult, RobotCard, RobotCards,
-};
+use crate::message::{EncodedGait, KeptRobot, PaletteEntry, ProbeReport, RequestResult, RobotCard, RobotCards};
 use crate::page_files::PageFiles;
 use crate::refusal::Refused;
 use crate::request::KeepRequest;
@@ -105,7 +103,7 @@ pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> 
         letters: behavior.to_string(),
         function: behavior.function().name(),
         displacement: displacement.to_vec(),
-        character: sketched.as_ref().map(character),
+        character: sketched,
         points: gaits[0].points,
         voxels: report::voxel_data(&gaits[0], &body, &shown),
         looks: report::voxel_looks(&shown),
@@ -120,17 +118,6 @@ fn measured(body: &Body, is_whole: bool, job: &Job) -> Result<(Displacements, Be
     let behavior = displacement.behavior();
     let character = is_whole.then(|| sketch(&simulator, body, behavior)).transpose().map_err(stopped)?;
     Ok((displacement, behavior, character))
-}
-
-fn character(character: &Character) -> CharacterSketch {
-    CharacterSketch {
-        clock: character.clock,
-        margin: character.margin,
-        errors: character.error_rate,
-        switches: character.switches,
-        glitches: character.glitch_rate,
-        topples: character.topples,
-    }
 }
 
 /// Measures a body and writes its robot file into a folder beside the program that is to use it. Where a class shares

@@ -1,5 +1,5 @@
-//! The types of the messages for the page: `web/src/protocol.ts` is made from the schemas of the requests and of the
-//! server's messages. `NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol` rewrites it.
+//! The types of the messages for the page: `web/src/protocol.ts` is made from the schemas of the requests, of the
+//! server's messages, and of what pages of results contain. `NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol` rewrites it.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -12,9 +12,10 @@ use serde_json::Value;
 
 use crate::message::{ClassCourse, ClassRoll, ServerMessage};
 use crate::request::Request;
+use nbc_session::report::{EvolutionData, RunData, SheetsData};
 
 const HEAD: &str = "\
-// Generated from the messages of crates/play: NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol
+// Generated from the messages of crates/play and the data of pages of results: NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol
 // docs/play-protocol.md describes them.
 ";
 
@@ -26,7 +27,9 @@ struct Declared {
 }
 
 impl Declared {
-    fn add<T: JsonSchema>(&mut self, settings: SchemaSettings) {
+    fn add<T: JsonSchema>(&mut self) {
+        let settings = SchemaSettings::draft2020_12();
+        let settings = if self.is_read { settings.for_deserialize() } else { settings.for_serialize() };
         let schema = settings.into_generator().into_root_schema_for::<T>().to_value();
         self.declare(schema["title"].as_str().expect("a root has a name"), &schema);
         for (name, part) in schema["$defs"].as_object().into_iter().flatten() {
@@ -118,11 +121,14 @@ fn comment(schema: &Value, indent: &str) -> String {
 #[test]
 fn the_protocol_of_the_page_is_that_of_the_server() {
     let mut declared = Declared::default();
-    declared.add::<ServerMessage>(SchemaSettings::draft2020_12().for_serialize());
-    declared.add::<ClassCourse>(SchemaSettings::draft2020_12().for_serialize());
-    declared.add::<ClassRoll>(SchemaSettings::draft2020_12().for_serialize());
+    declared.add::<ServerMessage>();
+    declared.add::<ClassCourse>();
+    declared.add::<ClassRoll>();
+    declared.add::<RunData<'_>>();
+    declared.add::<SheetsData<'_>>();
+    declared.add::<EvolutionData>();
     declared.is_read = true;
-    declared.add::<Request>(SchemaSettings::draft2020_12().for_deserialize());
+    declared.add::<Request>();
     let texts: Vec<String> = declared.texts.into_values().collect();
     let expected = format!("{HEAD}\n{}\n", texts.join("\n\n"));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web/src/protocol.ts");

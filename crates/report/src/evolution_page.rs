@@ -4,16 +4,16 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use crate::chart::range_of;
 use crate::color::Scheme;
 use crate::evolution_results::{EvolutionResults, axis_word};
 use crate::heatmap::{heat, share};
-use crate::html::{Html, base64, controls, escape, picture};
+use crate::html::{Html, controls, escape, page_json, picture};
 use crate::listing::walked;
 use crate::looks::Looks;
-use crate::page_bodies::{materials, voxel_data, voxel_looks};
+use crate::page_bodies::{RecordedBody, VoxelLook, materials, voxel_looks};
 use crate::stage::Stage;
 use crate::svg::Svg;
 use nbc_base::diag::counted;
@@ -47,7 +47,7 @@ pub fn draw_evolution_page(results: &EvolutionResults, figures: &[PageFigure], s
         passed: behaviors > 0,
         verdict: verdict(results, behaviors, entries.len()),
         body: archive(results, left_out) + &figures.iter().map(figure).collect::<String>(),
-        script: Some((SCRIPT, data(results, &entries, &gaits, pace, &looks))),
+        script: Some((SCRIPT, page_json(&EvolutionData::of(results, &entries, &gaits, pace, &looks)))),
     }
     .finish()
 }
@@ -146,73 +146,107 @@ fn figure(figure: &PageFigure) -> String {
     format!("<section>\n<h2>{heading}</h2>\n{}</section>\n", picture(&figure.drawing, &figure.heading))
 }
 
-fn data(results: &EvolutionResults, entries: &[Entry<'_>], gaits: &[Recorded], pace: u32, looks: &Looks) -> Value {
-    let range = range(results);
-    let elites: Vec<Value> = entries
-        .iter()
-        .enumerate()
-        .map(|(i, entry)| {
-            elite_data(results, entry, gaits.get(i), heat(share(range, entry.elite.fitness[0])).to_string(), looks)
-        })
-        .collect();
-    let axes: Vec<Value> = results
-        .axes
-        .iter()
-        .map(|&axis| json!({ "word": axis_word(axis), "bins": axis.bins(results.stimuli) }))
-        .collect();
-    let found = results.behaviors();
-    // Of the 256 behaviors of three stimuli, only those that were found have a map.
-    let behaviors: Vec<Value> = Behavior::all(results.stimuli)
-        .filter(|behavior| results.stimuli == 2 || found.contains(behavior))
-        .map(|behavior| json!({ "word": behavior.to_string(), "function": behavior.function().name() }))
-        .collect();
-    let digits = |spell: &Spell| spell.pattern.digits(results.stimuli);
-    let patterns: Vec<String> = results.shown(GAIT_CYCLES).spells.iter().map(digits).collect();
-    json!({
-        "looks": voxel_looks(looks),
-        "images": results.images.iter().map(|image| Vec::from(Image::clone(image))).collect::<Vec<_>>(),
-        "patterns": patterns,
-        "cycles": GAIT_CYCLES,
-        "pace": pace,
-        "axes": axes,
-        "behaviors": behaviors,
-        "elites": elites,
-    })
+#[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct EvolutionData {
+    looks: Vec<VoxelLook>,
+    /// What is shown of each image: rows from the top, 1 is black.
+    images: Vec<Vec<Vec<f64>>>,
+    /// The patterns, or as many as there are images.
+    patterns: Vec<String>,
+    /// Cycles under each of them.
+    cycles: u32,
+    /// Frames in a cycle.
+    pace: u32,
+    axes: Vec<PageAxis>,
+    behaviors: Vec<PageBehavior>,
+    elites: Vec<PageElite>,
 }
 
-fn elite_data(
-    results: &EvolutionResults,
-    entry: &Entry<'_>,
-    gait: Option<&Recorded>,
+#[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct PageAxis {
+    word: &'static str,
+    bins: usize,
+}
+
+#[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct PageBehavior {
+    word: String,
+    function: &'static str,
+}
+
+/// The best of a niche; there may have been no room for its gait.
+#[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct PageElite {
+    behavior: String,
+    function: &'static str,
+    /// Its bin of each axis.
+    niche: Vec<u16>,
+    fitness: [f64; 2],
     color: String,
-    looks: &Looks,
-) -> Value {
-    let Entry { key: NicheKey(niche), seed, elite } = entry;
-    let counted = results.axes.iter().zip(niche).filter(|(axis, _)| matches!(axis, Axis::Count { .. }));
-    let place: Vec<String> = counted
-        .map(|(axis, bin)| format!("{} {} of {}", axis_word(*axis), bin + 1, axis.bins(results.stimuli)))
-        .collect();
-    let mut value = json!({
-        "behavior": elite.behavior.to_string(),
-        "function": elite.behavior.function().name(),
-        "niche": niche,
-        "fitness": elite.fitness,
-        "color": color,
-        "size": [elite.body.width(), elite.body.height()],
-        "about": [
-            ["fitness", &format!("{}, {}", number(elite.fitness[0]), results.unit())],
-            ["bins", &place.join(", ")],
-            ["second", &format!("{:.3}", elite.fitness[1])],
-            ["displacement", &format!("{} voxels", walked(&elite.displacement))],
-            ["body", &elite.body.rows().join(" ")],
-            ["materials", &materials(&elite.body)],
-            ["born", &format!("seed {seed}, generation {}", elite.generation)],
-        ],
-    });
-    if let Some(gait) = gait {
-        value["voxels"] = json!(voxel_data(gait, &elite.body, looks));
-        value["corners"] = json!(gait.points);
-        value["frames"] = json!(base64(&gait.frames));
+    /// Columns and rows.
+    size: [usize; 2],
+    about: Vec<[String; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gait: Option<RecordedBody>,
+}
+
+impl EvolutionData {
+    fn of(results: &EvolutionResults, entries: &[Entry<'_>], gaits: &[Recorded], pace: u32, looks: &Looks) -> Self {
+        let range = range(results);
+        let elite = |(at, entry): (usize, &Entry<'_>)| {
+            let color = heat(share(range, entry.elite.fitness[0])).to_string();
+            let gait = gaits.get(at).map(|gait| RecordedBody::of(gait, &entry.elite.body, looks));
+            PageElite::of(results, entry, gait, color)
+        };
+        let found = results.behaviors();
+        // Of the 256 behaviors of three stimuli, only those that were found have a map.
+        let shown = Behavior::all(results.stimuli).filter(|one| results.stimuli == 2 || found.contains(one));
+        let digits = |spell: &Spell| spell.pattern.digits(results.stimuli);
+        let axis = |&axis: &Axis| PageAxis { word: axis_word(axis), bins: axis.bins(results.stimuli) };
+        Self {
+            looks: voxel_looks(looks),
+            images: results.images.iter().map(|image| Vec::from(Image::clone(image))).collect(),
+            patterns: results.shown(GAIT_CYCLES).spells.iter().map(digits).collect(),
+            cycles: GAIT_CYCLES,
+            pace,
+            axes: results.axes.iter().map(axis).collect(),
+            behaviors: shown
+                .map(|one| PageBehavior { word: one.to_string(), function: one.function().name() })
+                .collect(),
+            elites: entries.iter().enumerate().map(elite).collect(),
+        }
     }
-    value
+}
+
+impl PageElite {
+    fn of(results: &EvolutionResults, entry: &Entry<'_>, gait: Option<RecordedBody>, color: String) -> Self {
+        let Entry { key: NicheKey(niche), seed, elite } = entry;
+        let counted = results.axes.iter().zip(niche).filter(|(axis, _)| matches!(axis, Axis::Count { .. }));
+        let place: Vec<String> = counted
+            .map(|(axis, bin)| format!("{} {} of {}", axis_word(*axis), bin + 1, axis.bins(results.stimuli)))
+            .collect();
+        let about = [
+            ("fitness", format!("{}, {}", number(elite.fitness[0]), results.unit())),
+            ("bins", place.join(", ")),
+            ("second", format!("{:.3}", elite.fitness[1])),
+            ("displacement", format!("{} voxels", walked(&elite.displacement))),
+            ("body", elite.body.rows().join(" ")),
+            ("materials", materials(&elite.body)),
+            ("born", format!("seed {seed}, generation {}", elite.generation)),
+        ];
+        Self {
+            behavior: elite.behavior.to_string(),
+            function: elite.behavior.function().name(),
+            niche: niche.clone(),
+            fitness: elite.fitness,
+            color,
+            size: [elite.body.width(), elite.body.height()],
+            about: about.map(|(word, text)| [word.to_owned(), text]).into(),
+            gait,
+        }
+    }
 }

@@ -6,7 +6,7 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use serde_json::Value;
+use serde::Serialize;
 
 use crate::svg::Svg;
 
@@ -17,7 +17,8 @@ pub struct Html<'a> {
     pub passed: bool,
     pub verdict: String,
     pub body: String,
-    pub script: Option<(&'static str, Value)>,
+    /// A script, and its data as JSON.
+    pub script: Option<(&'static str, String)>,
 }
 
 impl Html<'_> {
@@ -25,8 +26,6 @@ impl Html<'_> {
         let (heading, verdict, version) = (escape(self.heading), escape(&self.verdict), nbc_base::VERSION);
         let class = if self.passed { "pass" } else { "fail" };
         let script = self.script.map_or(String::new(), |(script, data)| {
-            // No text of the user's can end the element.
-            let data = data.to_string().replace('<', "\\u003c");
             format!("<script id=\"data\" type=\"application/json\">{data}</script>\n<script>\n{script}\n</script>\n")
         });
         format!(
@@ -42,6 +41,11 @@ impl Html<'_> {
             body = self.body,
         )
     }
+}
+
+pub fn page_json(data: &impl Serialize) -> String {
+    // No text of the user's can end the element.
+    serde_json::to_string(data).expect("data of pages are data").replace('<', "\\u003c")
 }
 
 pub fn controls(speed: &str) -> String {

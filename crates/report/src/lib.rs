@@ -30,7 +30,6 @@ mod looks;
 mod net_names;
 mod occlusion;
 mod page_bodies;
-mod phases;
 mod pose;
 mod progress;
 #[cfg(feature = "pictures")]
@@ -52,9 +51,9 @@ mod swatches;
 mod symbols;
 mod table;
 mod timing;
+mod truth_table;
 mod vcd;
 mod verdict;
-mod waves;
 mod wires;
 
 pub use champions::{Champions, draw_champions};
@@ -80,7 +79,6 @@ pub use listing::{Answer, Listing, Outcome, describe_robot};
 pub use looks::{Look, Looks, Mark, describe_material};
 pub use occlusion::{OcclusionMap, draw_occlusion};
 pub use page_bodies::{VoxelLook, about_robot, voxel_data, voxel_looks};
-pub use phases::PhaseTiming;
 pub use pose::draw_pose;
 pub use progress::{Course, Series, draw_progress};
 #[cfg(feature = "pictures")]
@@ -98,4 +96,5 @@ pub use table::{Align, TextTable};
 pub use timing::{SwarmTiming, describe_fan_out, describe_memory, describe_path, describe_settling};
 pub use vcd::vcd;
 pub use verdict::{describe_simulation, describe_swarm, describe_test, describe_verdict};
-pub use waves::WaveTiming;
+#[cfg(feature = "schema")]
+pub use {evolution_page::EvolutionData, run_page::RunData, schematic::SheetsData};

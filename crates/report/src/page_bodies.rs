@@ -1,9 +1,9 @@
 //! Bodies on pages: their voxels, the appearance of these, and their materials.
 
 use serde::Serialize;
-use serde_json::{Value, json};
 
 use crate::element::Point;
+use crate::html::base64;
 use crate::looks::{Look, Looks, material_words};
 use nbc_base::diag::counted;
 use nbc_base::model::{Body, Material};
@@ -66,15 +66,45 @@ pub fn about_robot(assembly: &Assembly, number: usize, called: &dyn Fn(StimulusS
     pairs
 }
 
-pub fn cell_data(assembly: &Assembly) -> Vec<Value> {
-    let data = |(number, member): (usize, &Member)| {
+/// A robot of a circuit.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct PageCell {
+    pub net: String,
+    pub function: &'static str,
+    /// Words with their texts.
+    pub about: Vec<[String; 2]>,
+    /// The nets that it senses.
+    pub reads: Vec<String>,
+}
+
+pub fn page_cells(assembly: &Assembly) -> Vec<PageCell> {
+    let cell = |(number, member): (usize, &Member)| {
         let wired = member.senses.iter().filter(|source| !matches!(source, StimulusSource::Constant(_)));
-        json!({
-            "net": member.net,
-            "function": member.robot.function().name(),
-            "about": about_robot(assembly, number, &|source| assembly.source_name(source)),
-            "reads": wired.map(|&source| assembly.source_name(source)).collect::<Vec<_>>(),
-        })
+        PageCell {
+            net: member.net.clone(),
+            function: member.robot.function().name(),
+            about: about_robot(assembly, number, &|source| assembly.source_name(source)),
+            reads: wired.map(|&source| assembly.source_name(source)).collect(),
+        }
     };
-    assembly.members.iter().enumerate().map(data).collect()
+    assembly.members.iter().enumerate().map(cell).collect()
+}
+
+/// A body with its poses.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RecordedBody {
+    pub voxels: Vec<[usize; 5]>,
+    /// The number of points.
+    pub corners: usize,
+    /// The base64 of hundredths of a voxel: x and y of each point, frame by frame.
+    pub frames: String,
+}
+
+impl RecordedBody {
+    pub fn of(recorded: &Recorded, body: &Body, looks: &Looks) -> Self {
+        let voxels = voxel_data(recorded, body, looks);
+        Self { voxels, corners: recorded.points, frames: base64(&recorded.frames) }
+    }
 }

@@ -1,19 +1,20 @@
 //! The report of a run as one self-contained HTML page: the verdict, the schematic, and a player in step with the
 //! waveform; of tests at the level of logic, their truth tables.
 
-use serde_json::{Value as Json, json};
+use serde::Serialize;
 
 use crate::color::Scheme;
-use crate::html::{Html, base64, controls, escape, picture};
+use crate::html::{Html, controls, escape, page_json, picture};
 use crate::looks::Looks;
-use crate::page_bodies::{cell_data, voxel_data, voxel_looks};
+use crate::page_bodies::{PageCell, RecordedBody, VoxelLook, page_cells, voxel_looks};
 use crate::schematic::SchematicPages;
 use crate::schematic::explorer;
 use crate::svg::Svg;
+use crate::truth_table::TruthTable;
 use crate::verdict::{describe_test, in_world, named_world};
 use nbc_base::diag::counted;
 use nbc_base::model::{CYCLE_STEPS, Column, Value};
-use nbc_swarm::{Assembly, Recorded, RowActivity, RowVerdict, SimulationResult, SwarmTrace, TestVerdict};
+use nbc_swarm::{Assembly, Recorded, SimulationResult, SwarmTrace, TestVerdict};
 
 const SCRIPT: &str = include_str!("../page/run.js");
 
@@ -37,10 +38,8 @@ pub fn draw_run_page(source: &str, swarms: &[PageSwarm<'_>], scheme: Scheme) -> 
     let looks = Looks::of(members.map(|member| &member.robot.body), scheme);
     let (tests, simulations): (Vec<SwarmOutcome<'_>>, Vec<SwarmOutcome<'_>>) =
         swarms.iter().map(|swarm| swarm.outcome).partition(|outcome| matches!(outcome, SwarmOutcome::Test(_)));
-    let data = json!({
-        "looks": voxel_looks(&looks),
-        "swarms": swarms.iter().map(|swarm| swarm_data(swarm, &looks)).collect::<Vec<_>>(),
-    });
+    let recorded = swarms.iter().map(|swarm| RecordedSwarm::of(swarm, &looks)).collect();
+    let data = page_json(&RunData { looks: voxel_looks(&looks), swarms: recorded });
     Html {
         heading: source,
         passed: swarms.iter().all(|swarm| swarm.outcome.passed()),
@@ -49,6 +48,72 @@ pub fn draw_run_page(source: &str, swarms: &[PageSwarm<'_>], scheme: Scheme) -> 
         script: Some((SCRIPT, data)),
     }
     .finish()
+}
+
+#[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RunData<'a> {
+    looks: Vec<VoxelLook>,
+    swarms: Vec<RecordedSwarm<'a>>,
+}
+
+#[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct RecordedSwarm<'a> {
+    /// Frames in a cycle.
+    pace: u32,
+    robots: Vec<RecordedRobot>,
+    cells: Vec<RecordedCell>,
+    schematic: &'a SchematicPages,
+    cycles: usize,
+    /// The cycles at which inputs change.
+    marks: Vec<usize>,
+    inputs: Vec<WaveRow>,
+    outputs: Vec<WaveRow>,
+}
+
+#[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct RecordedCell {
+    #[serde(flatten)]
+    cell: PageCell,
+    /// Hexadecimal digits of four cycles each, the first cycle highest.
+    bits: String,
+}
+
+#[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct RecordedRobot {
+    /// Its place among the cells.
+    cell: usize,
+    /// The frame in which it became unstable.
+    fault: Option<f64>,
+    /// For each stimulus, a digit a cycle.
+    sensed: Vec<String>,
+    /// Columns and rows.
+    size: [usize; 2],
+    #[serde(flatten)]
+    body: RecordedBody,
+}
+
+/// A row of a waveform, whose values apply `shift` cycles later.
+#[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct WaveRow {
+    name: String,
+    /// The name of its color in the style sheet.
+    color: &'static str,
+    shift: usize,
+    values: WaveValues,
+}
+
+/// The digits of a bit, or the values of a bus.
+#[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(untagged)]
+enum WaveValues {
+    Bit(String),
+    Bus(Vec<String>),
 }
 
 /// `pass: 2 of 2 tests passed, 1 simulation`
@@ -96,11 +161,14 @@ impl SwarmOutcome<'_> {
 
     fn table(self) -> String {
         let (table, fault) = match self {
-            Self::Test(verdict) => (truth_table(verdict), verdict.fault()),
-            Self::Simulation(result) => (activity_table(result), result.fault.as_ref()),
+            Self::Test(verdict) => {
+                let rows = verdict.rows.iter().map(|row| (row, row.passed));
+                (TruthTable::of_test(verdict, rows), verdict.fault())
+            }
+            Self::Simulation(result) => (TruthTable::of_simulation(result), result.fault.as_ref()),
         };
         let fault = fault.map(|fault| format!("<p class=\"fail\">{}</p>\n", escape(&fault.to_string())));
-        table + &fault.unwrap_or_default()
+        table.html() + &fault.unwrap_or_default()
     }
 }
 
@@ -126,84 +194,23 @@ fn player() -> String {
     )
 }
 
-fn truth_table(verdict: &TestVerdict) -> String {
-    let (inputs, outputs) = (verdict.inputs.len(), verdict.outputs.len());
-    let rows: String = verdict.rows.iter().map(truth_row).collect();
-    format!(
-        "<div class=\"scroll\" tabindex=\"0\"><table>\n<tr><th></th>{}{}{}<th></th><th></th></tr>\n\
-         <tr><th>line</th>{}{}{}<th>cycles</th><th></th></tr>\n{rows}</table></div>\n",
-        group_head(inputs, "inputs"),
-        group_head(outputs, "expected"),
-        group_head(outputs, "observed"),
-        port_heads(&verdict.inputs),
-        port_heads(&verdict.outputs),
-        port_heads(&verdict.outputs),
-    )
-}
-
-fn truth_row(row: &RowVerdict) -> String {
-    let word = if row.passed { "pass" } else { "fail" };
-    format!(
-        "<tr><td>{}</td>{}{}{}<td>{}</td><td class=\"{word}\">{word}</td></tr>\n",
-        row.line,
-        cells(&row.inputs),
-        cells(&row.expected),
-        cells(&row.observed),
-        row.cycles.map_or(String::new(), |cycles| cycles.to_string()),
-    )
-}
-
-fn activity_table(result: &SimulationResult) -> String {
-    let (inputs, outputs) = (result.inputs.len(), result.outputs.len());
-    let row = |row: &RowActivity| {
-        let (inputs, observed, changes) = (cells(&row.inputs), cells(&row.observed), cells(&row.changes));
-        format!("<tr><td>{}</td>{inputs}<td>{}</td>{observed}{changes}</tr>\n", row.line, row.cycles)
-    };
-    let rows: String = result.rows.iter().map(row).collect();
-    format!(
-        "<div class=\"scroll\" tabindex=\"0\"><table>\n<tr><th></th>{}<th></th>{}{}</tr>\n\
-         <tr><th>line</th>{}<th>cycles</th>{}{}</tr>\n{rows}</table></div>\n",
-        group_head(inputs, "inputs"),
-        group_head(outputs, "at the end"),
-        group_head(outputs, "changes"),
-        port_heads(&result.inputs),
-        port_heads(&result.outputs),
-        port_heads(&result.outputs),
-    )
-}
-
-fn group_head(columns: usize, name: &str) -> String {
-    if columns == 0 { String::new() } else { format!("<th colspan=\"{columns}\">{name}</th>") }
-}
-
-fn port_heads(ports: &[Column]) -> String {
-    ports.iter().map(|port| format!("<th>{}</th>", escape(&port.name))).collect()
-}
-
-fn cells(values: &[impl ToString]) -> String {
-    values.iter().map(|value| format!("<td>{}</td>", escape(&value.to_string()))).collect()
-}
-
-fn swarm_data(swarm: &PageSwarm<'_>, looks: &Looks) -> Json {
-    let trace = swarm.trace;
-    let pairs = trace.cycles.windows(2).enumerate();
-    let marks: Vec<usize> = pairs.filter(|(_, pair)| pair[0].inputs != pair[1].inputs).map(|(i, _)| i + 1).collect();
-    let robots: Vec<Json> = trace.recording.robots.iter().map(|recorded| robot_data(swarm, recorded, looks)).collect();
-    let mut cells = cell_data(swarm.assembly);
-    for (k, cell) in cells.iter_mut().enumerate() {
-        cell["bits"] = json!(packed(trace.cycles.iter().map(|cycle| cycle.bits[k])));
+impl<'a> RecordedSwarm<'a> {
+    fn of(swarm: &PageSwarm<'a>, looks: &Looks) -> Self {
+        let trace = swarm.trace;
+        let pairs = trace.cycles.windows(2).enumerate();
+        let cell = |(k, cell)| RecordedCell { cell, bits: packed(trace.cycles.iter().map(|cycle| cycle.bits[k])) };
+        let [inputs, outputs] = port_waves(trace);
+        Self {
+            pace: trace.recording.frames_per_cycle,
+            robots: trace.recording.robots.iter().map(|robot| RecordedRobot::of(swarm, robot, looks)).collect(),
+            cells: page_cells(swarm.assembly).into_iter().enumerate().map(cell).collect(),
+            schematic: swarm.schematic,
+            cycles: trace.cycles.len(),
+            marks: pairs.filter(|(_, pair)| pair[0].inputs != pair[1].inputs).map(|(i, _)| i + 1).collect(),
+            inputs,
+            outputs,
+        }
     }
-    let [inputs, outputs] = port_waves(trace);
-    json!({
-        "pace": trace.recording.frames_per_cycle,
-        "robots": robots,
-        "cells": cells,
-        "schematic": swarm.schematic,
-        "cycles": trace.cycles.len(),
-        "marks": marks,
-        "inputs": inputs,
-        "outputs": outputs,
-    })
 }
 
 /// A bit in each cycle, four of them in a hexadecimal digit, the first one highest.
@@ -220,43 +227,38 @@ fn digits(bits: impl Iterator<Item = bool>) -> String {
     bits.map(|bit| if bit { '1' } else { '0' }).collect()
 }
 
-fn robot_data(swarm: &PageSwarm<'_>, recorded: &Recorded, looks: &Looks) -> Json {
-    let (trace, k) = (swarm.trace, recorded.robot);
-    let robot = &trace.robots[k];
-    let pace = f64::from(CYCLE_STEPS) / f64::from(trace.recording.frames_per_cycle.max(1));
-    let fault = robot.fault.map(|fault| f64::from(fault.env_step) / pace);
-    let body = &swarm.assembly.members[k].robot.body;
-    let strip = |i: usize| digits(trace.cycles.iter().map(|cycle| cycle.sensed[k].has(i)));
-    let sensed: Vec<String> = (0..robot.senses.len()).map(strip).collect();
-    json!({
-        "cell": k,
-        "fault": fault,
-        "sensed": sensed,
-        "size": [body.width(), body.height()],
-        "voxels": voxel_data(recorded, body, looks),
-        "corners": recorded.points,
-        "frames": base64(&recorded.frames),
-    })
+impl RecordedRobot {
+    fn of(swarm: &PageSwarm<'_>, recorded: &Recorded, looks: &Looks) -> Self {
+        let (trace, k) = (swarm.trace, recorded.robot);
+        let robot = &trace.robots[k];
+        let pace = f64::from(CYCLE_STEPS) / f64::from(trace.recording.frames_per_cycle.max(1));
+        let body = &swarm.assembly.members[k].robot.body;
+        let strip = |i: usize| digits(trace.cycles.iter().map(|cycle| cycle.sensed[k].has(i)));
+        Self {
+            cell: k,
+            fault: robot.fault.map(|fault| f64::from(fault.env_step) / pace),
+            sensed: (0..robot.senses.len()).map(strip).collect(),
+            size: [body.width(), body.height()],
+            body: RecordedBody::of(recorded, body, looks),
+        }
+    }
 }
 
-/// The rows of the inputs and of the outputs in the waveform. An output changes at the end of its cycle. The row of a
-/// bit is a text of digits, that of a bus a list of values.
-fn port_waves(trace: &SwarmTrace) -> [Vec<Json>; 2] {
-    let cycles = 0..trace.cycles.len();
-    let words = |port: &Column, value: &dyn Fn(usize) -> Value| {
-        let words: Vec<String> = cycles.clone().map(|cycle| value(cycle).to_string()).collect();
-        if port.width == 1 { json!(words.concat()) } else { json!(words) }
+/// The rows of the inputs and of the outputs in the waveform. An output changes at the end of its cycle.
+fn port_waves(trace: &SwarmTrace) -> [Vec<WaveRow>; 2] {
+    let values = |port: &Column, value: &dyn Fn(usize) -> Value| {
+        let words: Vec<String> = (0..trace.cycles.len()).map(|cycle| value(cycle).to_string()).collect();
+        if port.width == 1 { WaveValues::Bit(words.concat()) } else { WaveValues::Bus(words) }
     };
-    let input =
-        |(i, port): (usize, &Column)| row(&port.name, "s1", 0, words(port, &|c| trace.input_values(c).swap_remove(i)));
+    let input = |(i, port): (usize, &Column)| {
+        let values = values(port, &|cycle| trace.input_values(cycle).swap_remove(i));
+        WaveRow { name: port.name.clone(), color: "s1", shift: 0, values }
+    };
     let output = |(o, port): (usize, &Column)| {
-        row(&format!("output {}", port.name), "out", 1, words(port, &|c| trace.output_values(c).swap_remove(o)))
+        let values = values(port, &|cycle| trace.output_values(cycle).swap_remove(o));
+        WaveRow { name: format!("output {}", port.name), color: "out", shift: 1, values }
     };
     [trace.inputs.iter().enumerate().map(input).collect(), trace.outputs.iter().enumerate().map(output).collect()]
-}
-
-fn row(name: &str, color: &str, shift: usize, values: Json) -> Json {
-    json!({ "name": name, "color": color, "shift": shift, "values": values })
 }
 
 pub fn draw_logic_page(source: &str, verdicts: &[&TestVerdict]) -> String {

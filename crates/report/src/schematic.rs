@@ -4,13 +4,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
-use serde_json::json;
 
 use crate::color::Scheme;
 use crate::hierarchy::{CircuitPart, Hierarchy};
-use crate::html::{Html, embedded};
+use crate::html::{Html, embedded, page_json};
 use crate::looks::Looks;
-use crate::page_bodies::cell_data;
+use crate::page_bodies::{PageCell, page_cells};
 use crate::sheet::{Sheet, SheetItem};
 use crate::sprite::draw_body;
 use crate::svg::Svg;
@@ -186,6 +185,13 @@ fn scale(robot: &Robot) -> f64 {
 
 const SCRIPT: &str = include_str!("../page/sheets.js");
 
+#[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct SheetsData<'a> {
+    schematic: &'a SchematicPages,
+    cells: Vec<PageCell>,
+}
+
 pub fn draw_schematic_page(assembly: &Assembly, schematic: &SchematicPages) -> String {
     let (robots, sheets) = (counted(assembly.members.len(), "robot"), counted(schematic.sheets.len(), "sheet"));
     Html {
@@ -193,7 +199,7 @@ pub fn draw_schematic_page(assembly: &Assembly, schematic: &SchematicPages) -> S
         passed: true,
         verdict: format!("{robots} on {sheets}"),
         body: explorer(),
-        script: Some((SCRIPT, json!({ "schematic": schematic, "cells": cell_data(assembly) }))),
+        script: Some((SCRIPT, page_json(&SheetsData { schematic, cells: page_cells(assembly) }))),
     }
     .finish()
 }

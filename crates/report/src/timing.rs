@@ -4,11 +4,9 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::WaveTiming;
-use crate::phases::PhaseTiming;
 use nbc_base::diag::counted;
-use nbc_circuit::timing::fan_out;
-use nbc_circuit::waves::WaveMachine;
+use nbc_circuit::timing::{PhaseTiming, fan_out};
+use nbc_circuit::waves::{WaveMachine, WaveTiming};
 use nbc_circuit::{Memory, NetId, Netlist, Timing, rings};
 use nbc_swarm::{Assembly, Member};
 

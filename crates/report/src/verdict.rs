@@ -1,34 +1,19 @@
 //! The verdict of a test or a simulation as text: a truth table and the failures.
 
-use crate::{Align, TextTable};
+use crate::truth_table::{TruthTable, pass_word};
 use nbc_base::diag::counted;
-use nbc_base::model::{Column, NamedWorld, Value};
+use nbc_base::model::{NamedWorld, Value};
 use nbc_swarm::{RowVerdict, SimulationResult, SwarmTrace, TestVerdict, WrongOutput};
 
 const MOST_ROWS: usize = 20;
 
 pub fn describe_test(verdict: &TestVerdict) -> String {
-    use Align::{Left, Right};
-    let mut table =
-        TextTable::new(&[("inputs", Left), ("expected", Left), ("observed", Left), ("cycles", Right), ("", Left)]);
-    let inputs = PortColumns::of(&verdict.inputs, verdict.rows.iter().map(|row| &row.inputs));
-    let expected = PortColumns::of(&verdict.outputs, verdict.rows.iter().map(|row| &row.expected));
-    let observed = PortColumns::of(&verdict.outputs, verdict.rows.iter().map(|row| &row.observed));
-    table.push(vec![inputs.names(), expected.names(), observed.names(), String::new(), String::new()]);
-    for row in verdict.rows.iter().filter(|row| row.thread.unwrap_or(0) == 0) {
-        let same = verdict
-            .rows
-            .iter()
-            .filter(|other| other.thread.is_some() && other.line == row.line && other.row == row.row);
-        let passed = row.passed && same.into_iter().all(|other| other.passed);
-        table.push(vec![
-            inputs.words(&row.inputs),
-            expected.words(&row.expected),
-            observed.words(&row.observed),
-            row.cycles.map_or(String::new(), |cycles| cycles.to_string()),
-            pass_word(passed).to_owned(),
-        ]);
-    }
+    let of_first_thread = verdict.rows.iter().filter(|row| row.thread.unwrap_or(0) == 0);
+    let rows = of_first_thread.map(|row| {
+        let is_same = |other: &&RowVerdict| other.thread.is_some() && (other.line, other.row) == (row.line, row.row);
+        (row, row.passed && verdict.rows.iter().filter(is_same).all(|other| other.passed))
+    });
+    let table = TruthTable::of_test(verdict, rows).text();
     let threads = verdict.rows.iter().filter_map(|row| row.thread).max().map_or(0, |last| last + 1);
     let threads = if threads > 1 { format!(" in {threads} threads") } else { String::new() };
     let proof = verdict.proof.as_ref().map_or(String::new(), |proof| format!(", {proof}"));
@@ -38,7 +23,7 @@ pub fn describe_test(verdict: &TestVerdict) -> String {
     }
     let robots = describe_weak_robots(verdict);
     let printed = describe_printed(verdict);
-    format!("{heading}{printed}{robots}{}{}", indented(&table), describe_rows(verdict))
+    format!("{heading}{printed}{robots}{table}{}", describe_rows(verdict))
 }
 
 /// A test with its swarm and its world: `inverter as sliders "inverts" in worn`.
@@ -97,23 +82,10 @@ fn describe_failures(verdict: &TestVerdict) -> String {
 }
 
 pub fn describe_simulation(result: &SimulationResult) -> String {
-    use Align::{Left, Right};
-    let mut table = TextTable::new(&[("inputs", Left), ("cycles", Right), ("at the end", Left), ("changes", Left)]);
-    let inputs = PortColumns::of(&result.inputs, result.rows.iter().map(|row| &row.inputs));
-    let observed = PortColumns::of(&result.outputs, result.rows.iter().map(|row| &row.observed));
-    table.push(vec![inputs.names(), String::new(), observed.names(), observed.names()]);
-    for row in &result.rows {
-        let changes: Vec<String> = row.changes.iter().map(usize::to_string).collect();
-        let cycles = row.cycles.to_string();
-        table.push(vec![inputs.words(&row.inputs), cycles, observed.words(&row.observed), observed.words(&changes)]);
-    }
+    let table = TruthTable::of_simulation(result).text();
     let fault = result.fault.as_ref().map_or(String::new(), |fault| format!("    {fault}\n"));
     let world = in_world(&result.world);
-    format!("simulate {}, of {}{world}\n{}{fault}", result.swarm, result.circuit, indented(&table))
-}
-
-fn indented(table: &TextTable) -> String {
-    table.to_string().lines().map(|line| format!("    {line}\n")).collect()
+    format!("simulate {}, of {}{world}\n{table}{fault}", result.swarm, result.circuit)
 }
 
 fn describe_weak_robots(verdict: &TestVerdict) -> String {
@@ -183,36 +155,6 @@ pub fn describe_swarm(trace: &SwarmTrace) -> String {
     }
 }
 
-fn pass_word(passed: bool) -> &'static str {
-    if passed { "pass" } else { "FAIL" }
-}
-
-struct PortColumns<'a> {
-    ports: &'a [Column],
-    widths: Vec<usize>,
-}
-
-impl<'a> PortColumns<'a> {
-    fn of<'v>(ports: &'a [Column], rows: impl Iterator<Item = &'v Vec<Value>>) -> Self {
-        let mut widths: Vec<usize> = ports.iter().map(|port| port.name.chars().count()).collect();
-        for row in rows {
-            for (width, value) in widths.iter_mut().zip(row) {
-                *width = (*width).max(value.to_string().chars().count());
-            }
-        }
-        Self { ports, widths }
-    }
-
-    fn names(&self) -> String {
-        self.words(&self.ports.iter().map(|port| &port.name).collect::<Vec<_>>())
-    }
-
-    fn words(&self, words: &[impl ToString]) -> String {
-        let padded = words.iter().zip(&self.widths).map(|(word, &width)| format!("{:<width$}", word.to_string()));
-        padded.collect::<Vec<_>>().join(" ").trim_end().to_owned()
-    }
-}
-
 fn describe_wrong_output(wrong: &WrongOutput, did: &str) -> String {
     let WrongOutput { net, robot, cycle, .. } = wrong;
     let stimuli: Vec<String> = wrong.sensed.iter().map(|&bit| u8::from(bit).to_string()).collect();
@@ -238,7 +180,7 @@ fn nearest_fix(row: &RowVerdict) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nbc_base::model::{Base, RowSource};
+    use nbc_base::model::{Base, Column, RowSource};
     use nbc_swarm::{Level, WeakRobot};
 
     fn port(name: &str, width: usize) -> Column {
@@ -262,20 +204,12 @@ mod tests {
             line: 1,
             title: "holds".to_owned(),
             circuit: "latch".to_owned(),
-            swarm: None,
             world: Some("paper".to_owned()),
-            is_world_named: false,
             level: Level::Physics,
             inputs: vec![port("d", 1), port("en", 1)],
             outputs: vec![port("q", 1), port("nq", 1)],
-            weak_robots: Vec::new(),
-            printed: None,
-            proof: None,
-            fault: None,
-            rows_from: None,
             rows: vec![RowVerdict {
                 row: 2,
-                thread: None,
                 line: 7,
                 cycles: Some(12),
                 needed: Some(14),
@@ -285,12 +219,10 @@ mod tests {
                 steady: vec![true, true],
                 passed,
                 wrong_outputs: if passed { vec![] } else { vec![wrong] },
-                late: vec![],
-                is_half: false,
-                given_up: None,
-                fault: None,
+                ..RowVerdict::default()
             }],
             passed,
+            ..TestVerdict::default()
         }
     }
 

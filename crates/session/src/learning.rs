@@ -68,8 +68,7 @@ impl Learning {
         if held_out >= examples.rows {
             return Err(vec![wording::no_training_rows(examples.rows, options.hold_out)]);
         }
-        let widths: Vec<usize> = outputs.iter().map(|port| port.width).collect();
-        let learner = Learner::new(&examples, &widths, options);
+        let learner = Learner::new(&examples, &outputs, options);
         Ok(Self { circuit: circuit.to_owned(), inputs, outputs, learner })
     }
 

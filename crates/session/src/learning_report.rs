@@ -10,7 +10,7 @@ use crate::wording;
 use nbc_base::diag::{Diagnostic, counted};
 use nbc_base::model::Column;
 use nbc_circuit::levels;
-use nbc_learn::{Accuracy, Bits, Examples, Tried};
+use nbc_learn::{Accuracy, Bits, Examples, LearnedOutput};
 
 /// What was learned.
 #[derive(Debug, Serialize)]
@@ -27,31 +27,16 @@ pub struct LearningReport {
     /// `None` if no row was held out.
     #[serde(skip_serializing_if = "Option::is_none")]
     held_out: Option<Accuracy>,
-    bits: Vec<BitReport>,
+    bits: Vec<LearnedOutput>,
     /// Of a circuit with one output of few values.
     #[serde(skip_serializing_if = "Option::is_none")]
     confusion: Option<Confusion>,
     seconds: f64,
 }
 
-#[derive(Debug, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct BitReport {
-    name: String,
-    /// What the bit is, in words.
-    learned: String,
-    tried: Vec<Tried>,
-}
-
 impl LearningReport {
     pub fn of(learned: &Learned, seconds: f64) -> Self {
         let Learned { design, inputs, outputs, circuit } = learned;
-        let names = outputs.iter().flat_map(Column::bits);
-        let bit = |(name, output): (String, &nbc_learn::LearnedOutput)| BitReport {
-            name,
-            learned: output.what.clone(),
-            tried: output.tried.clone(),
-        };
         let held_out = circuit.accuracy(&circuit.held_out);
         Self {
             circuit: design.logic.name.clone(),
@@ -62,7 +47,7 @@ impl LearningReport {
             depth: levels::depth(&design.logic),
             training: circuit.accuracy(&circuit.training),
             held_out: Some(held_out).filter(|held_out| held_out.rows > 0),
-            bits: names.zip(&circuit.outputs).map(bit).collect(),
+            bits: circuit.outputs.clone(),
             confusion: confusion(learned),
             seconds,
         }

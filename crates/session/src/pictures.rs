@@ -4,11 +4,12 @@ use std::fmt;
 
 use crate::compile::Compiled;
 use crate::mapping::Mapping;
-use crate::report::{self, PageSwarm, PhaseTiming, Schematic, SchematicPages, Scheme, Svg, SwarmOutcome, SwarmTiming};
+use crate::report::{self, PageSwarm, Schematic, SchematicPages, Scheme, Svg, SwarmOutcome, SwarmTiming};
 use crate::run_report::RunReport;
 use crate::swarm_run::SwarmRun;
 use crate::test::TestRun;
 use nbc_base::model::Robot;
+use nbc_circuit::timing::PhaseTiming;
 
 impl Compiled {
     pub fn schematic(&self, scheme: Scheme) -> Schematic<'_> {

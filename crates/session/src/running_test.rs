@@ -8,7 +8,7 @@ use crate::observer::{CaseObserver, CycleRunner, Observer};
 use crate::script::{Performance, PerformedRow};
 use crate::swarm_run::{DrivenSwarm, Physics, RunEnd, SwarmRun};
 use crate::test::{TestCase, TestRun, TestSubject};
-use crate::test_timing::{RowEnds, TimedTest, verdict};
+use crate::test_timing::{RowEnds, TimedTest};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{CircuitTest, TestRow};
 use nbc_circuit::Settled;
@@ -145,14 +145,14 @@ impl RunningCase {
                 let swarm = Some(SwarmRun { compiled, trace });
                 return TestRun { verdict, end, swarm, hold: Some(hold), warnings };
             }
-            Running::Gates(..) => verdict(&test, Level::Logic, None, verdicts),
+            Running::Gates(..) => TestVerdict::of(&test, Level::Logic, verdicts),
             Running::Script(performance) => {
                 let printed = Some(performance.printed).filter(|printed| !printed.is_empty());
-                TestVerdict { printed, ..verdict(&test, Level::Logic, None, verdicts) }
+                TestVerdict { printed, ..TestVerdict::of(&test, Level::Logic, verdicts) }
             }
             Running::Search(equivalence, search) => {
                 let (proof, passed, rows) = equivalence.judge(&test, &search);
-                TestVerdict { proof: Some(proof), passed, ..verdict(&test, Level::Logic, None, rows) }
+                TestVerdict { proof: Some(proof), passed, ..TestVerdict::of(&test, Level::Logic, rows) }
             }
         };
         verdict.passed &= end == RunEnd::Complete && fault.is_none();

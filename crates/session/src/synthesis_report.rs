@@ -26,8 +26,7 @@ pub struct SynthesisReport {
     outputs: usize,
     /// Registers.
     latches: usize,
-    /// Registers that the circuit does not need.
-    removed: RemovedReport,
+    removed: Removed,
     proved: bool,
     proof: ProofReport,
     seconds: f64,
@@ -63,17 +62,6 @@ struct ProofReport {
     words: String,
 }
 
-#[derive(Debug, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct RemovedReport {
-    /// Those that keep their start value, with this value.
-    constant: BTreeMap<String, u8>,
-    /// Those that always equal another, with the other.
-    equal: BTreeMap<String, String>,
-    /// Those that no output depends on.
-    unused: Vec<String>,
-}
-
 impl SynthesisReport {
     /// `origin` is what the proof begins with.
     pub fn of(synthesis: &Synthesis, origin: ProofOrigin, seconds: f64) -> Self {
@@ -85,7 +73,7 @@ impl SynthesisReport {
             inputs: design.inputs(),
             outputs: design.outputs(),
             latches: design.registers.len(),
-            removed: RemovedReport::of(removed),
+            removed: removed.clone(),
             // A circuit whose logic is not proved is never reported.
             proved: true,
             proof: ProofReport::of(origin, *unproved_registers),
@@ -106,7 +94,7 @@ impl SynthesisReport {
             self.seconds
         );
         text.extend(self.proof.version.iter().map(|version| format!("read by Yosys {version}\n")));
-        text.push_str(&self.removed.text());
+        text.push_str(&describe_removed(&self.removed));
         for (name, saved) in &self.what_if {
             let cells = counted(saved.unsigned_abs() as usize, "cell");
             let _ = writeln!(text, "with `{name}`: {cells} {}", if *saved < 0 { "more" } else { "fewer" });
@@ -133,30 +121,20 @@ impl ProofReport {
     }
 }
 
-impl RemovedReport {
-    fn of(removed: &Removed) -> Self {
-        Self {
-            constant: removed.constant.iter().map(|(name, value)| (name.clone(), (*value).into())).collect(),
-            equal: removed.equal.iter().cloned().collect(),
-            unused: removed.unused.clone(),
-        }
-    }
-
-    fn text(&self) -> String {
-        let constant: Vec<_> = self.constant.iter().map(|(name, value)| format!("{name} = {value}")).collect();
-        let equal: Vec<_> = self.equal.iter().map(|(name, other)| format!("{name} = {other}")).collect();
-        let line = |(what, names): (&str, &[String])| match names.len() {
-            0 => String::new(),
-            _ => format!("{what}: {}\n", listed(names)),
-        };
-        [
-            ("registers that never change", &constant[..]),
-            ("registers that equal another", &equal),
-            ("registers that no output needs", &self.unused),
-        ]
-        .map(line)
-        .concat()
-    }
+fn describe_removed(removed: &Removed) -> String {
+    let constant: Vec<_> = removed.constant.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+    let equal: Vec<_> = removed.equal.iter().map(|(name, other)| format!("{name} = {other}")).collect();
+    let line = |(what, names): (&str, &[String])| match names.len() {
+        0 => String::new(),
+        _ => format!("{what}: {}\n", listed(names)),
+    };
+    [
+        ("registers that never change", &constant[..]),
+        ("registers that equal another", &equal),
+        ("registers that no output needs", &removed.unused),
+    ]
+    .map(line)
+    .concat()
 }
 
 fn listed(names: &[String]) -> String {

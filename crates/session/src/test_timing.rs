@@ -27,43 +27,6 @@ pub(super) enum TestTiming {
     Waves,
 }
 
-pub(super) fn verdict(
-    test: &CircuitTest,
-    level: Level,
-    compiled: Option<&Compiled>,
-    rows: Vec<RowVerdict>,
-) -> TestVerdict {
-    let fault = rows.iter().find_map(|row| row.fault.as_ref()).map(ToString::to_string);
-    TestVerdict {
-        file: test.file.clone(),
-        line: test.line,
-        circuit: test.circuit.to_string(),
-        title: test.title.clone(),
-        swarm: compiled.and_then(|compiled| compiled.plan.swarm.clone()),
-        world: compiled.map(|compiled| compiled.plan.world.name.clone()),
-        is_world_named: !test.worlds.is_empty(),
-        level,
-        passed: enough(test, &rows),
-        rows_from: test.rows_from.clone(),
-        inputs: test.inputs.clone(),
-        outputs: test.outputs.clone(),
-        weak_robots: compiled.map_or(Vec::new(), |compiled| compiled.weak_robots.clone()),
-        rows,
-        printed: None,
-        proof: None,
-        fault,
-    }
-}
-
-/// Whether all rows passed, or the share that the test asks for.
-fn enough(test: &CircuitTest, rows: &[RowVerdict]) -> bool {
-    let passed = rows.iter().filter(|row| row.passed).count();
-    match test.rows_from.as_ref().and_then(|from| from.at_least) {
-        Some(percent) => passed as f64 * 100.0 >= percent * rows.len() as f64,
-        None => passed == rows.len(),
-    }
-}
-
 impl TestTiming {
     pub fn row_holds(&self) -> &[RowHold] {
         if let Self::Holds(row_holds) = self { row_holds } else { &[] }
@@ -138,7 +101,10 @@ impl TimedTest {
 
     pub fn verdict(&self, trace: &SwarmTrace, end: RunEnd) -> TestVerdict {
         let is_complete = end == RunEnd::Complete;
-        let mut verdict = verdict(&self.test, Level::Physics, Some(&self.compiled), self.judge(trace));
+        let Compiled { plan, weak_robots, .. } = &self.compiled;
+        let mut verdict = TestVerdict::of(&self.test, Level::Physics, self.judge(trace));
+        (verdict.swarm, verdict.world) = (plan.swarm.clone(), Some(plan.world.name.clone()));
+        verdict.weak_robots = weak_robots.clone();
         verdict.printed = Some(self.printed.clone()).filter(|printed| !printed.is_empty() && is_complete);
         verdict.passed &= is_complete;
         verdict

@@ -3,13 +3,14 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{RobotFault, WeakRobot};
-use nbc_base::model::{Column, RowSource, Value};
+use nbc_base::model::{CircuitTest, Column, RowSource, Value};
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Level {
     /// Gates without physics, each of which takes one time step.
+    #[default]
     Logic,
     Physics,
 }
@@ -23,7 +24,7 @@ impl Level {
     }
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TestVerdict {
     pub file: String,
@@ -60,6 +61,29 @@ pub struct TestVerdict {
 }
 
 impl TestVerdict {
+    /// Of rows that were judged, without a swarm.
+    pub fn of(test: &CircuitTest, level: Level, rows: Vec<RowVerdict>) -> Self {
+        let passed = rows.iter().filter(|row| row.passed).count();
+        Self {
+            file: test.file.clone(),
+            line: test.line,
+            circuit: test.circuit.to_string(),
+            title: test.title.clone(),
+            is_world_named: !test.worlds.is_empty(),
+            level,
+            passed: match test.rows_from.as_ref().and_then(|from| from.at_least) {
+                Some(percent) => passed as f64 * 100.0 >= percent * rows.len() as f64,
+                None => passed == rows.len(),
+            },
+            rows_from: test.rows_from.clone(),
+            inputs: test.inputs.clone(),
+            outputs: test.outputs.clone(),
+            fault: rows.iter().find_map(|row| row.fault.as_ref()).map(ToString::to_string),
+            rows,
+            ..Self::default()
+        }
+    }
+
     /// The number of rows: a pulse is one, and so is a step of all threads of a wave machine.
     pub fn row_count(&self) -> usize {
         self.rows.iter().filter(|row| !row.is_half && row.thread.unwrap_or(0) == 0).count()

@@ -6,7 +6,8 @@ import type { Pen } from "../live/pane";
 import type { Gait } from "../robots/gait";
 import { GaitView } from "../robots/walk";
 import { Clock } from "./clock";
-import { gaitOf, type Elite, type EvolutionData } from "./data";
+import type { EvolutionData, PageElite } from "../protocol";
+import { gaitOf } from "./data";
 import { fittest, placeOf } from "./niches";
 import { describe, drawPresence, part } from "./shown";
 
@@ -106,14 +107,14 @@ export class Archive {
     this.#clock.seek(0);
   }
 
-  #walkOf({ size, voxels, corners, frames }: Elite): { view: GaitView; gait: Gait } | null {
-    if (size === undefined || voxels === undefined || corners === undefined || frames === undefined) {
+  #walkOf({ size, gait }: PageElite): { view: GaitView; gait: Gait } | null {
+    if (gait === undefined) {
       return null;
     }
     const [columns, rows] = size;
-    const looking = { voxels, looks: this.data.looks, tall: rows + 1, wide: 2 * columns };
+    const looking = { voxels: gait.voxels, looks: this.data.looks, tall: rows + 1, wide: 2 * columns };
     const view = new GaitView(this.#stage, looking);
-    return { view, gait: gaitOf({ size, voxels, corners, frames }, this.data.pace) };
+    return { view, gait: gaitOf(gait, this.data.pace) };
   }
 
   #draw(): void {

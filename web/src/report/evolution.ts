@@ -1,7 +1,7 @@
 // The page of an evolution.
 
 import { Archive } from "./archive";
-import type { EvolutionData } from "./data";
+import type { EvolutionData } from "../protocol";
 import { readPage } from "./shown";
 
 new Archive(readPage<EvolutionData>());

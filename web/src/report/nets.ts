@@ -1,6 +1,6 @@
 // Which nets of a circuit depend on which.
 
-import type { Cell } from "./data";
+import type { PageCell } from "../protocol";
 
 /** What is marked with a robot: its wires, or all that it depends on, or all that depends on it. */
 export type Reach = "wires" | "before" | "after";
@@ -10,7 +10,7 @@ export class Nets {
   /** The robots that sense each net. */
   readonly #readers = new Map<string, number[]>();
 
-  constructor(private readonly cells: Cell[]) {
+  constructor(private readonly cells: PageCell[]) {
     this.#drivers = new Map(cells.map((cell, robot) => [cell.net, robot]));
     cells.forEach(({ reads }, robot) => {
       for (const net of reads) {

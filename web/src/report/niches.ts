@@ -1,10 +1,10 @@
 // The niches of a map.
 
-import type { Elite } from "./data";
+import type { PageElite } from "../protocol";
 
 /** The fittest elite of each niche of two axes, of all along the others. */
 export function fittest(
-  elites: Pick<Elite, "behavior" | "niche" | "fitness">[],
+  elites: Pick<PageElite, "behavior" | "niche" | "fitness">[],
   x: number,
   y: number,
 ): Map<string, number> {

@@ -6,7 +6,7 @@ import { drawingOf, pathTo, placeBodies } from "../live/schematic_parts";
 import { Viewport, type Box } from "../live/viewport";
 import { Observable } from "../observable";
 import type { SchematicPages } from "../protocol";
-import type { Cell } from "./data";
+import type { PageCell } from "../protocol";
 import { Nets, type Reach } from "./nets";
 import { describe, part } from "./shown";
 
@@ -51,7 +51,7 @@ export class Schematic {
   constructor(
     private readonly root: HTMLElement,
     private readonly sheets: SchematicPages,
-    private readonly cells: Cell[],
+    private readonly cells: PageCell[],
   ) {
     this.#nets = new Nets(cells);
     this.#place = part(root, ".sheet");

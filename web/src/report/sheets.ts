@@ -1,9 +1,8 @@
 // A page with a schematic alone.
 
-import type { SchematicPages } from "../protocol";
-import type { Cell } from "./data";
+import type { SheetsData } from "../protocol";
 import { Schematic } from "./schematic";
 import { part, readPage } from "./shown";
 
-const { schematic, cells } = readPage<{ schematic: SchematicPages; cells: Cell[] }>();
+const { schematic, cells } = readPage<SheetsData>();
 new Schematic(part(document, ".schematic"), schematic, cells);

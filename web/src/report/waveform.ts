@@ -4,7 +4,7 @@ import { colors, styled } from "../colors";
 import { drawBit, drawBus } from "../live/levels";
 import { CanvasPane, type Pen } from "../live/pane";
 import type { Clock } from "./clock";
-import type { RecordedSwarm, Row } from "./data";
+import type { RecordedSwarm, WaveRow } from "../protocol";
 
 /** The heights of a row, and of the numbers below all. */
 const ROW = 22;
@@ -20,7 +20,7 @@ interface PartRow {
 
 export class Waveform {
   readonly pane: CanvasPane;
-  #rows: (Row | PartRow)[] = [];
+  #rows: (WaveRow | PartRow)[] = [];
 
   constructor(
     private readonly swarm: RecordedSwarm,
@@ -43,7 +43,7 @@ export class Waveform {
   /** Takes the rows of a sheet with these robots. */
   arrange(sheet: number, robots: number[]): void {
     const { cells, inputs, outputs, cycles, schematic } = this.swarm;
-    const bits = (robot: number): Row => {
+    const bits = (robot: number): WaveRow => {
       const { net = "", bits = "" } = cells[robot] ?? {};
       return { name: net, color: "dim", shift: 1, values: unpacked(bits, cycles) };
     };
@@ -104,7 +104,7 @@ export class Waveform {
     }
   }
 
-  #drawRow(pen: Pen, row: Row | PartRow, top: number): void {
+  #drawRow(pen: Pen, row: WaveRow | PartRow, top: number): void {
     const [high, low] = [top + 4, top + ROW - 4];
     pen.font = `12px ${colors.value.font}`;
     pen.textAlign = "left";

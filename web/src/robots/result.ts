@@ -97,7 +97,7 @@ export class ProbeView {
       facts.push(
         ["clock", `${character.clock} ${character.clock === 1 ? "cycle" : "cycles"}`],
         ["margin", `${character.margin.toFixed(3)} voxels a cycle`],
-        ["errors", `${percent(character.errors)} in ${character.switches} switches`],
+        ["errors", `${percent(character.error_rate)} in ${character.switches} switches`],
         ...(character.topples ? [["falls over", "sometimes"] satisfies [string, string]] : []),
       );
     }

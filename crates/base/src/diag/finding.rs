@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::{Code, Diagnostic, Label, Severity};
 use crate::source::{Sources, Span};
 
+/// A diagnostic for programs and pages, with file names, lines and columns.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Finding {

@@ -8,6 +8,7 @@ mod arrivals;
 mod clock;
 mod held;
 mod phase;
+mod phase_timing;
 mod update;
 mod wording;
 
@@ -21,6 +22,7 @@ use crate::{NetId, Netlist, Node, Storage, Unphased, WhyUnphased};
 pub use arrivals::Delays;
 pub use clock::{ClockPath, ClockTimes, InputTimes};
 pub use held::{Held, KeptLatch};
+pub use phase_timing::{PhaseTiming, TimedFlipFlop, TimedLatch, UnphasedLoop};
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Timing {

@@ -11,12 +11,14 @@ mod graph;
 mod machine;
 mod phases;
 mod search;
+mod timing;
 mod wording;
 
 pub use certify::certify;
 pub use clock_run::{ClockRun, LANES};
 pub use clock_step::{ClockStep, StateBit};
 pub use machine::{Reading, WaveMachine, WaveOutput, WaveState};
+pub use timing::{Chain, NetPhase, WaveTiming};
 pub use wording::WaveError;
 
 use crate::cells::CellLibrary;

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use nbc_base::model::Character;
 use nbc_session::report::VoxelLook;
 
 #[derive(Clone, Debug, Serialize)]
@@ -53,7 +54,8 @@ pub(crate) struct ProbeReport {
     pub(crate) letters: String,
     pub(crate) function: &'static str,
     pub(crate) displacement: Vec<f64>,
-    pub(crate) character: Option<CharacterSketch>,
+    /// Over a few switches.
+    pub(crate) character: Option<Character>,
     pub(crate) points: usize,
     pub(crate) voxels: Vec<[usize; 5]>,
     pub(crate) looks: Vec<VoxelLook>,
@@ -67,18 +69,6 @@ pub(crate) struct EncodedGait {
     pub(crate) cycles: u32,
     /// Base64 of numbers as in a frame.
     pub(crate) poses: String,
-}
-
-/// The character of a body over a few switches.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub(crate) struct CharacterSketch {
-    pub(crate) clock: u32,
-    pub(crate) margin: f64,
-    pub(crate) errors: f64,
-    pub(crate) switches: u32,
-    pub(crate) glitches: f64,
-    pub(crate) topples: bool,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

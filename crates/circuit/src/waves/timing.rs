@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
+use crate::NetId;
+use crate::waves::WaveMachine;
 use nbc_base::diag::counted;
 use nbc_base::model::CYCLE_SECONDS;
-use nbc_circuit::NetId;
-use nbc_circuit::waves::WaveMachine;
 
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]

@@ -3,23 +3,23 @@
 
 use serde::Serialize;
 
+use crate::timing::{ClockPath, ClockTimes, InputTimes, KeptLatch, Timing};
+use crate::{CellKind, FlipFlop, Latch, NetId, Netlist, Unphased};
 use nbc_base::diag::counted;
-use nbc_circuit::timing::{ClockPath, ClockTimes, InputTimes, KeptLatch};
-use nbc_circuit::{CellKind, FlipFlop, Latch, NetId, Netlist, Timing, Unphased};
 
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PhaseTiming {
-    pub latches: Vec<LatchReport>,
-    pub flip_flops: Vec<FlipFlopReport>,
+    pub latches: Vec<TimedLatch>,
+    pub flip_flops: Vec<TimedFlipFlop>,
     pub clocks: Vec<ClockTimes>,
-    pub unphased: Vec<UnphasedReport>,
+    pub unphased: Vec<UnphasedLoop>,
     pub kept: Vec<KeptLatch>,
 }
 
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct LatchReport {
+pub struct TimedLatch {
     pub nets: Vec<String>,
     pub enable: String,
     /// The value of `enable` for which the latch is open.
@@ -28,7 +28,7 @@ pub struct LatchReport {
 
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct FlipFlopReport {
+pub struct TimedFlipFlop {
     /// The nets that keep the bit of its second latch.
     pub nets: Vec<String>,
     pub clock: String,
@@ -39,7 +39,7 @@ pub struct FlipFlopReport {
 /// A loop that a change is assumed to pass twice.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct UnphasedReport {
+pub struct UnphasedLoop {
     pub nets: Vec<String>,
     pub why: String,
 }
@@ -53,17 +53,17 @@ impl PhaseTiming {
     ) -> Self {
         let name = |net: NetId| netlist.net_name(net);
         let storage = &timing.storage;
-        let latch = |latch: &Latch| LatchReport {
+        let latch = |latch: &Latch| TimedLatch {
             nets: netlist.net_names(&latch.cells),
             enable: name(latch.root),
             open: latch.open,
         };
         let flip_flop = |pair: &FlipFlop| {
             let second = &storage.latches[pair.second];
-            FlipFlopReport { nets: netlist.net_names(&second.cells), clock: name(second.root), rising: pair.rising }
+            TimedFlipFlop { nets: netlist.net_names(&second.cells), clock: name(second.root), rising: pair.rising }
         };
         let unphased =
-            |loops: &Unphased| UnphasedReport { nets: netlist.net_names(&loops.nets), why: loops.why.explain(netlist) };
+            |loops: &Unphased| UnphasedLoop { nets: netlist.net_names(&loops.nets), why: loops.why.explain(netlist) };
         Self {
             latches: storage.latches.iter().map(latch).collect(),
             flip_flops: storage.flip_flops.iter().map(flip_flop).collect(),
@@ -75,7 +75,7 @@ impl PhaseTiming {
 
     pub fn describe(&self) -> String {
         let clocks = self.clocks.iter().map(describe_clock);
-        let unphased = self.unphased.iter().map(|UnphasedReport { nets, why }| {
+        let unphased = self.unphased.iter().map(|UnphasedLoop { nets, why }| {
             format!("unphased {}: {why}; timed as a loop that a change passes twice\n", nets.join(" "))
         });
         let kept = self.kept.iter().map(|KeptLatch { net, why }| format!("kept     {net} stays as written: {why}\n"));
