@@ -1,71 +1,14 @@
 // What `nbc test --format json` and `nbc prove --format json` print (docs/schema/), and what editors show of it.
 
-interface Port {
-  name: string;
-  width: number;
-}
-
-/** A value of a row: as users write it, and as bits, in which `-` is not checked. */
-interface Value {
-  text: string;
-  bits: string;
-}
-
-interface Lapse {
-  net: string;
-  robot: string;
-  /** From 0 at the start. */
-  cycle: number;
-  sensed: [boolean, boolean];
-  output: boolean;
-}
-
-/** A row of a test that ran. Lines count from 1. */
-export interface RowResult {
-  row: number;
-  line: number;
-  inputs: Value[];
-  expected: Value[];
-  observed: Value[];
-  steady: boolean[];
-  cycles: number | null;
-  needed: number | null;
-  passed: boolean;
-  lapses: Lapse[];
-  late: Lapse[];
-}
-
-/** A test that ran with one swarm, or at the level of logic. */
-export interface TestResult {
-  file: string;
-  line: number;
-  circuit: string;
-  title: string;
-  swarm: string | null;
-  level: "logic" | "physics";
-  passed: boolean;
-  inputs: Port[];
-  outputs: Port[];
-  rows: RowResult[];
-  /** How a test for ever was decided, in words. */
-  proof?: string;
-}
-
-/** Lines count from 1. */
-export interface PropertyResult {
-  property: string;
-  line: number;
-  verdict: "proved" | "refuted" | "undecided";
-  /** Steps of the run that violates it, or the first steps in which it holds. */
-  steps: number;
-  /** A test whose last row violates it. */
-  test?: string;
-}
-
-export interface ClaimResult {
-  line: number;
-  properties: PropertyResult[];
-}
+import type {
+  DecidedClaim,
+  DecidedProperty,
+  Finding,
+  RowVerdict,
+  TestVerdict,
+  Value,
+  WrongOutput,
+} from "../../../../web/src/protocol";
 
 /** A failed row or a property that is not proved, in words. */
 export interface Failure {
@@ -81,40 +24,33 @@ const SCHEMA = "urn:nbc:test:1";
 const CLAIM_SCHEMA = "urn:nbc:prove:1";
 
 /** The results in the output of `nbc test --format json`; an error if it is something else. */
-export function readResults(stdout: string): TestResult[] {
+export function readResults(stdout: string): TestVerdict[] {
   const read = parsed(stdout);
   if (read?.schema !== SCHEMA || !Array.isArray(read.tests)) {
     throw new Error(`expected results in the format ${SCHEMA}, found ${excerpt(stdout)}`);
   }
-  return read.tests as TestResult[];
+  return read.tests as TestVerdict[];
 }
 
 /** The results in the output of `nbc prove --format json`; an error if it is something else. */
-export function readClaims(stdout: string): ClaimResult[] {
+export function readClaims(stdout: string): DecidedClaim[] {
   const read = parsed(stdout);
   if (read?.schema !== CLAIM_SCHEMA || !Array.isArray(read.claims)) {
     throw new Error(`expected results in the format ${CLAIM_SCHEMA}, found ${excerpt(stdout)}`);
   }
-  return read.claims as ClaimResult[];
+  return read.claims as DecidedClaim[];
 }
 
 /** Why no test ran: the messages of the diagnostics, or what was printed as text. */
 export function readFaults(stdout: string, stderr: string): string {
   const read = parsed(stdout);
   if (Array.isArray(read?.diagnostics) && read.diagnostics.length > 0) {
-    return (read.diagnostics as Diagnostic[]).map(describeDiagnostic).join("\n");
+    return (read.diagnostics as Finding[]).map(describeDiagnostic).join("\n");
   }
   return stderr.trim() || excerpt(stdout);
 }
 
-interface Diagnostic {
-  severity: string;
-  message: string;
-  help: string | null;
-  labels: { file: string; start: { line: number; column: number } }[];
-}
-
-function describeDiagnostic({ severity, message, help, labels }: Diagnostic): string {
+function describeDiagnostic({ severity, message, help, labels }: Finding): string {
   const place = labels.slice(0, 1).map(({ file, start }) => `${file}:${start.line}:${start.column}: `);
   return `${place.join("")}${severity}: ${message}${help ? `; ${help}` : ""}`;
 }
@@ -132,18 +68,16 @@ function excerpt(text: string): string {
   return text.trim() === "" ? "nothing" : `\`${text.trim().slice(0, 200)}\``;
 }
 
-export function unproved({ line, verdict, steps, test }: PropertyResult): Failure {
-  const word = steps === 1 ? "step" : "steps";
-  const how =
-    verdict === "refuted" ? `refuted after ${steps} ${word}` : `undecided; it holds in the first ${steps} ${word}`;
-  return { line, message: test === undefined ? how : `${how}\n${test.trimEnd()}` };
+export function unproved({ line = 0, verdict, how, test }: DecidedProperty): Failure {
+  const words = verdict === "refuted" ? `refuted ${how}` : `undecided; ${how}`;
+  return { line, message: test === undefined ? words : `${words}\n${test.trimEnd()}` };
 }
 
-export function failures(test: TestResult): Failure[] {
+export function failures(test: TestVerdict): Failure[] {
   return test.rows.filter(row => !row.passed).map(row => failure(test, row));
 }
 
-function failure(test: TestResult, row: RowResult): Failure {
+function failure(test: TestVerdict, row: RowVerdict): Failure {
   const checked = test.outputs
     .map((port, at) => ({ port, expected: row.expected[at]!, observed: row.observed[at]!, steady: row.steady[at]! }))
     .filter(({ expected }) => /[01]/.test(expected.bits));
@@ -168,7 +102,7 @@ function differs(expected: Value, observed: Value): boolean {
   return [...expected.bits].some((bit, at) => bit !== "-" && bit !== observed.bits[at]);
 }
 
-function blame(row: RowResult): string[] {
+function blame(row: RowVerdict): string[] {
   const wrong = row.lapses.map(lapse => describeLapse(lapse, "output"));
   const late = row.late.map(lapse => describeLapse(lapse, "had not settled yet and output"));
   const short = row.cycles !== null && row.needed !== null && row.cycles < row.needed;
@@ -176,7 +110,7 @@ function blame(row: RowResult): string[] {
   return [...wrong, ...late, ...hold];
 }
 
-function describeLapse({ net, robot, cycle, sensed, output }: Lapse, did: string): string {
+function describeLapse({ net, robot, cycle, sensed, output }: WrongOutput, did: string): string {
   const stimuli = sensed.map(Number).join(" ");
   return `cycle ${cycle + 1}: robot ${robot} on net ${net} ${did} ${Number(output)} on stimuli ${stimuli}`;
 }

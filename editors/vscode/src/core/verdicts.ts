@@ -1,7 +1,8 @@
 // The results of a run, for each declared test and row.
 
 import type { DeclaredTest } from "./declared";
-import { type ClaimResult, failures, type Failure, type TestResult, unproved } from "./results";
+import type { DecidedClaim, TestVerdict } from "../../../../web/src/protocol";
+import { failures, type Failure, unproved } from "./results";
 
 /** The result of a test or claim. Rows are in the order of their declarations. */
 export interface Verdict {
@@ -9,11 +10,11 @@ export interface Verdict {
   state: "passed" | "failed" | "missing";
   /** The failures that belong to no row that is written, as in tests of all inputs. */
   failures: Failure[];
-  rows: RowVerdict[];
+  rows: RowState[];
 }
 
 /** The result of a row in all swarms of its test, or of a property. */
-export interface RowVerdict {
+export interface RowState {
   state: "passed" | "failed" | "missing";
   failures: Failure[];
 }
@@ -21,7 +22,7 @@ export interface RowVerdict {
 const MOST_FAILURES = 20;
 
 /** The verdict of a declared test: it passes if it does with every swarm of its circuit. */
-export function verdictOf(test: DeclaredTest, results: TestResult[]): Verdict {
+export function verdictOf(test: DeclaredTest, results: TestVerdict[]): Verdict {
   const mine = results.filter(result => result.line === test.line + 1);
   const failed = mine.flatMap(failures);
   const rows = test.rows.map(({ line }) => {
@@ -38,7 +39,7 @@ export function verdictOf(test: DeclaredTest, results: TestResult[]): Verdict {
 }
 
 /** The verdict of a declared claim: it passes if all its properties are proved. */
-export function verdictOfClaim(claim: DeclaredTest, results: ClaimResult[]): Verdict {
+export function verdictOfClaim(claim: DeclaredTest, results: DecidedClaim[]): Verdict {
   const mine = results.filter(result => result.line === claim.line + 1).flatMap(({ properties }) => properties);
   const rows = claim.rows.map(({ line }) => {
     const own = mine.filter(property => property.line === line + 1);
@@ -48,7 +49,7 @@ export function verdictOfClaim(claim: DeclaredTest, results: ClaimResult[]): Ver
   return { state, failures: [], rows };
 }
 
-function verdict(seen: boolean, failures: Failure[]): RowVerdict {
+function verdict(seen: boolean, failures: Failure[]): RowState {
   return { state: !seen ? "missing" : failures.length === 0 ? "passed" : "failed", failures };
 }
 

@@ -4,7 +4,8 @@ import * as vscode from "vscode";
 
 import { run as runProgram } from "../core/child";
 import { type DeclaredTest, nameOf } from "../core/declared";
-import { type ClaimResult, type Failure, readClaims, readFaults, readResults, type TestResult } from "../core/results";
+import type { DecidedClaim, TestVerdict } from "../../../../web/src/protocol";
+import { type Failure, readClaims, readFaults, readResults } from "../core/results";
 import { verdictOf, verdictOfClaim } from "../core/verdicts";
 import { folderOf, save } from "./files";
 import { Items } from "./items";
@@ -17,8 +18,8 @@ export type Level = "auto" | "physics" | "logic";
 type Choice = [DeclaredTest["kind"], ...string[]];
 
 interface Results {
-  tests: TestResult[];
-  claims: ClaimResult[];
+  tests: TestVerdict[];
+  claims: DecidedClaim[];
 }
 
 type Chosen = Map<vscode.TestItem, Set<vscode.TestItem>>;
