@@ -8,8 +8,9 @@ use nbc::{
     encode_circuit, read_rows, with_comment,
 };
 use pyo3::prelude::*;
-use serde_json::{Value, json};
+use serde::Serialize;
 
+use crate::described::json;
 use crate::errors::{bad_value, diagnosed};
 use crate::work::{self, Watch};
 
@@ -31,9 +32,19 @@ pub struct LearningArguments {
     seed: u64,
 }
 
+#[derive(Serialize)]
+struct LearnedCircuit {
+    data: LearningReport,
+    text: String,
+    /// The circuit as a program.
+    source: Option<String>,
+    /// The confusions, as SVG.
+    picture: Option<String>,
+}
+
 impl LearningArguments {
     /// Reads, learns and writes.
-    fn run(self, format: Option<CircuitFormat>, watch: &Watch) -> Result<Value, Diagnostics> {
+    fn run(self, format: Option<CircuitFormat>, watch: &Watch) -> Result<Option<LearnedCircuit>, Diagnostics> {
         let started = Instant::now();
         let Self { name, file, text, output, target, gates, hold_out, group, seed } = self;
         let (sources, file) = match text {
@@ -55,7 +66,7 @@ impl LearningArguments {
         let mut observer = watch.observer();
         while learning.advance() {
             if observer.is_cancelled() {
-                return Ok(Value::Null);
+                return Ok(None);
             }
             let (done, all) = learning.progress();
             observer.progress(done, all);
@@ -72,7 +83,8 @@ impl LearningArguments {
         // A circuit may be too large for a program, and still fit the file that is wanted.
         let source = written(CircuitFormat::Nb).ok().and_then(|bytes| String::from_utf8(bytes).ok());
         let picture = report.draw_confusion().ok().map(|svg| svg.finish());
-        Ok(json!({ "data": report, "text": report.text(), "source": source, "picture": picture }))
+        let text = report.text();
+        Ok(Some(LearnedCircuit { data: report, text, source, picture }))
     }
 }
 
@@ -85,5 +97,5 @@ pub fn learn(py: Python<'_>, arguments: LearningArguments, progress: Option<Boun
     let format = arguments.output.as_ref().map(format).transpose()?;
     let learned = work::run(py, &watch, progress.as_ref(), move |watch| arguments.run(format, watch))?.finished()?;
     let learned = learned.map_err(|found| diagnosed(py, &found))?;
-    Ok(learned.to_string())
+    json(py, &learned)
 }

@@ -4,6 +4,7 @@
 mod bodies;
 mod circuits;
 mod command;
+mod described;
 mod errors;
 mod evaluation;
 mod evolution;

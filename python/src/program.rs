@@ -4,15 +4,16 @@ use std::path::Path;
 use std::sync::Arc;
 
 use nbc::{
-    Checked, Choice, CompileOptions, Diagnostics, DiskWorld, Effort, GuardedWorld, Hardened, Hardening,
+    Checked, Choice, CompileOptions, DecidedClaim, Diagnostics, DiskWorld, Effort, GuardedWorld, Hardened, Hardening,
     ImageSize,
 };
-use nbc::{Level, MappingObjective, Room, RunReport, SearchBudget, Session, TestOptions, TestRun, Yields};
+use nbc::{Level, MappingObjective, Room, RunReport, SearchBudget, Session, TestOptions, TestRun, TestVerdict, Yields};
 use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use crate::circuits::Compiled;
+use crate::described::{Described, json};
 use crate::errors::{bad_word, diagnosed, internal, without_place};
 use crate::evolution::Evolution;
 use crate::work::{self, Watch, at_once};
@@ -23,6 +24,32 @@ use crate::worlds::{self, Sampling};
 pub struct Program {
     session: Arc<Session>,
     checked: Arc<Checked>,
+}
+
+/// A test, as Python sees it.
+#[derive(IntoPyObject)]
+struct DeclaredTest {
+    title: String,
+    circuit: String,
+    file: String,
+    line: usize,
+}
+
+/// A claim, as Python sees it.
+#[derive(IntoPyObject)]
+struct DeclaredClaim {
+    title: String,
+    circuit: String,
+    file: String,
+    line: usize,
+    properties: Vec<String>,
+}
+
+/// A claim with the text of each property.
+#[derive(Serialize)]
+struct DecidedTexts {
+    data: DecidedClaim,
+    texts: Vec<String>,
 }
 
 /// How a circuit becomes a swarm, as Python gives it.
@@ -76,33 +103,32 @@ impl Program {
 
     /// Its warnings, as JSON.
     fn diagnostics(&self, py: Python<'_>) -> PyResult<String> {
-        at_once(py, || Ok(json!(self.checked.findings()).to_string()))
+        at_once(py, || json(py, &self.checked.findings()))
     }
 
-    /// The circuits of the file itself with their ports, as JSON.
-    fn circuits(&self) -> String {
+    /// The circuits of the file itself.
+    fn circuits(&self) -> Vec<String> {
         let own = self.checked.program.circuits.iter().filter(|circuit| Some(circuit.span.file) == self.checked.file);
-        own.map(|circuit| json!({ "name": circuit.name })).collect::<Value>().to_string()
+        own.map(|circuit| circuit.name.clone()).collect()
     }
 
-    /// Its tests, as JSON.
-    fn tests(&self) -> String {
-        let record = |test: &nbc::CircuitTest| {
+    fn tests(&self) -> Vec<DeclaredTest> {
+        let declared = |test: &nbc::CircuitTest| {
             let nbc::CircuitTest { title, circuit, file, line, .. } = test;
-            json!({ "title": title, "circuit": circuit.to_string(), "file": file, "line": line })
+            DeclaredTest { title: title.clone(), circuit: circuit.to_string(), file: file.clone(), line: *line }
         };
-        self.checked.program.tests.iter().map(record).collect::<Value>().to_string()
+        self.checked.program.tests.iter().map(declared).collect()
     }
 
-    /// Its claims, as JSON.
-    fn claims(&self) -> String {
-        let record = |claim: &nbc::Claim| {
-            let nbc::Claim { title, file, line, .. } = claim;
-            let properties: Vec<&str> = claim.wanted().map(|property| property.text.as_str()).collect();
-            let circuit = claim.circuit.to_string();
-            json!({ "title": title, "circuit": circuit, "file": file, "line": line, "properties": properties })
+    fn claims(&self) -> Vec<DeclaredClaim> {
+        let declared = |claim: &nbc::Claim| DeclaredClaim {
+            title: claim.title.clone(),
+            circuit: claim.circuit.to_string(),
+            file: claim.file.clone(),
+            line: claim.line,
+            properties: claim.wanted().map(|property| property.text.clone()).collect(),
         };
-        self.checked.program.claims.iter().map(record).collect::<Value>().to_string()
+        self.checked.program.claims.iter().map(declared).collect()
     }
 
     /// Its evolutions.
@@ -153,7 +179,7 @@ impl Program {
             session.test(&checked, &checked.program.tests[test], &options, &mut watch.observer())
         })?;
         let runs = ran.finished()?.map_err(|found| diagnosed(py, &found))?;
-        runs.iter().map(|run| self.record(py, run)).collect::<PyResult<Value>>().map(|records| records.to_string())
+        at_once(py, || json(py, &self.described(&runs)))
     }
 
     /// Decides a claim: the report as JSON, and the text of each property. In physics, the tests that refute properties
@@ -189,9 +215,8 @@ impl Program {
             })?;
             decided.note_runs(property, &ran.finished()?.map_err(|found| diagnosed(py, &found))?);
         }
-        let data = serde_json::to_value(&decided).map_err(|error| internal(py, &error.to_string()))?;
-        let texts: Vec<String> = decided.properties.iter().map(nbc::DecidedProperty::text).collect();
-        Ok(json!({ "data": data, "texts": texts }).to_string())
+        let texts = decided.properties.iter().map(nbc::DecidedProperty::text).collect();
+        json(py, &DecidedTexts { data: decided, texts })
     }
 
     /// Runs tests in samples of worlds: their yields as JSON, each with its text.
@@ -212,7 +237,8 @@ impl Program {
         })?;
         ran.or_partial(py, |found| {
             let found = found.map_err(|found| diagnosed(py, &found))?;
-            found.iter().map(|one| worlds::record(py, one)).collect::<PyResult<Value>>().map(|all| all.to_string())
+            let described = |one| Described::new(one, nbc::describe_robustness(one));
+            json(py, &found.iter().map(described).collect::<Vec<_>>())
         })
     }
 
@@ -239,8 +265,7 @@ impl Program {
         let found: Result<Option<Hardened>, Diagnostics> = ran.finished()?;
         let found = found.map_err(|found| diagnosed(py, &found))?;
         let hardened = found.ok_or_else(|| internal(py, &"the work was stopped"))?;
-        let data = serde_json::to_value(&hardened).map_err(|error| internal(py, &error.to_string()))?;
-        Ok(json!({ "data": data, "text": hardened.to_string() }).to_string())
+        json(py, &Described::new(&hardened, hardened.to_string()))
     }
 
     /// Runs every test and simulation in physics: the page, the results as JSON, and whether all passed.
@@ -261,20 +286,20 @@ impl Program {
             report.map(|report| (report.page(&checked.path, crate::bodies::scheme(safe_colors)), report))
         })?;
         let records = |(page, report): (String, RunReport)| {
-            let tests = report.tests.iter().map(|run| self.record(py, run)).collect::<PyResult<Value>>()?;
-            Ok((page, tests.to_string(), report.passed()))
+            let tests = at_once(py, || json(py, &self.described(&report.tests)))?;
+            Ok((page, tests, report.passed()))
         };
         ran.or_partial(py, |ran| records(ran.map_err(|found| diagnosed(py, &found))?))
     }
 }
 
 impl Program {
-    fn record(&self, py: Python<'_>, run: &TestRun) -> PyResult<Value> {
-        at_once(py, || {
-            let verdict = serde_json::to_value(&run.verdict).map_err(|error| internal(py, &error.to_string()))?;
-            let warnings = nbc::Diagnostics { list: run.warnings.clone(), sources: self.checked.sources.clone() };
-            Ok(json!({ "verdict": verdict, "text": run.to_string(), "warnings": warnings.findings() }))
-        })
+    fn described<'r>(&self, runs: &'r [TestRun]) -> Vec<Described<&'r TestVerdict>> {
+        let described = |run: &'r TestRun| {
+            let warnings = Diagnostics { list: run.warnings.clone(), sources: self.checked.sources.clone() };
+            Described::warned(&run.verdict, run.to_string(), &warnings)
+        };
+        runs.iter().map(described).collect()
     }
 }
 

@@ -8,9 +8,9 @@ use nbc::{
 };
 use nbc::{TopModule, cell_library, encode_circuit, named_functions, read_circuit, robot_cells};
 use pyo3::prelude::*;
-use serde_json::json;
 
-use crate::errors::{bad_value, diagnosed, internal};
+use crate::described::{Described, json};
+use crate::errors::{bad_value, diagnosed};
 use crate::program::{read_effort, read_objective};
 use crate::work::{self, Watch};
 
@@ -103,6 +103,5 @@ pub fn synthesize(
     };
     let made = work::run(py, &watch, None, move |_| job.run())?.finished()?;
     let (report, warnings) = made.map_err(|found| diagnosed(py, &found))?;
-    let data = serde_json::to_value(&report).map_err(|error| internal(py, &error.to_string()))?;
-    Ok(json!({ "data": data, "text": report.text(), "warnings": warnings.findings() }).to_string())
+    json(py, &Described::warned(&report, report.text(), &warnings))
 }

@@ -3,9 +3,8 @@
 use nbc::{Checked, Diagnostics, Robustness, Session, TestCase, TestOptions, Variation, WorldResult, Yields};
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use serde_json::{Value, json};
 
-use crate::errors::{bad_value, internal};
+use crate::errors::bad_value;
 use crate::work::Watch;
 
 /// The worlds of a sample, as Python gives them.
@@ -55,10 +54,4 @@ pub fn runs(session: &Session, yields: &Yields<'_>, watch: &Watch) -> Vec<Robust
     let results: Vec<Option<WorldResult>> = yields.runs().into_par_iter().map(run).collect();
     let mut tally = yields.tally();
     results.into_iter().map_while(|result| result).filter_map(|result| tally.tell(result)).collect()
-}
-
-/// A yield as data, with its text.
-pub fn record(py: Python<'_>, found: &Robustness) -> PyResult<Value> {
-    let data = serde_json::to_value(found).map_err(|error| internal(py, &error.to_string()))?;
-    Ok(json!({ "data": data, "text": nbc::describe_robustness(found) }))
 }

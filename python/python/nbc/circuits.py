@@ -18,6 +18,7 @@ from .evolution import Evolution
 from .names import Effort, Level, Objective, unknown
 from .numbers import amount, array_of, count, is_array
 from .progress import Progress, reporting
+from .result import Judged, Result
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -75,9 +76,11 @@ class Port:
     width: int
 
 
-@dataclass(frozen=True)
-class TestResult:
-    """The verdict of a test, for one swarm in one world or at the level of logic."""
+class TestResult(Judged):
+    """The verdict of a test, for one swarm in one world or at the level of logic.
+
+    ``text`` is the truth table with expected and observed outputs, and the failures.
+    """
 
     __test__ = False  # pytest would collect the class for its name.
 
@@ -92,62 +95,56 @@ class TestResult:
     """The world of the swarm; None at the level of logic."""
     file: str
     line: int
-    text: str = field(repr=False)
-    """The truth table with expected and observed outputs, and the failures."""
-    rows: Tuple[Mapping[str, Any], ...] = field(repr=False)
+    rows: Tuple[Mapping[str, Any], ...]
     """The rows: ``inputs``, ``expected``, ``observed``, ``passed``, ``cycles``, ``line``, and the robots at fault."""
-    warnings: Tuple[Diagnostic, ...] = field(repr=False)
+    warnings: Tuple[Diagnostic, ...]
 
-    def __str__(self) -> str:
-        return self.text
-
-    def _repr_html_(self) -> str:
-        color = "#1a7f37" if self.passed else "#b42318"
-        return f'<pre style="border-left:4px solid {color};padding-left:1em">{html.escape(self.text)}</pre>'
+    def _is_good(self) -> bool:
+        return self.passed
 
 
-@dataclass(frozen=True)
-class Property:
-    """A property of all steps of a circuit, and what is known of it."""
+class Property(Judged):
+    """A property of all steps of a circuit, and what is known of it.
+
+    ``text`` is all of this in lines, as ``nbc prove`` prints it.
+    """
 
     circuit: str
     title: str
-    statement: str
-    """As it is written."""
     verdict: str
     """``proved``, ``refuted`` or ``undecided``."""
-    method: Optional[str]
+    how: str
+    """What the verdict is based on."""
+    method: Optional[str] = None
     """What proves it: ``induction`` or ``invariant``."""
-    steps: Optional[int]
+    steps: Optional[int] = None
     """The steps of the induction or of the run that refutes it, or the first steps in which it is known to hold."""
-    invariant: Tuple[str, ...] = field(repr=False)
+    invariant: Tuple[str, ...] = ()
     """The clauses that hold in every step, if an invariant proves it."""
-    empty: Optional[str]
+    empty: Optional[str] = None
     """Why the proof says nothing: nothing is ever checked."""
-    test: Optional[str] = field(repr=False)
+    test: Optional[str] = None
     """The test whose last row violates it, as text."""
-    physics: Optional[bool]
+    physics: Optional[bool] = None
     """Whether robots do what the test shows, if they were asked."""
     file: str
     line: int
-    text: str = field(repr=False)
-    """All this in lines, as ``nbc prove`` prints it."""
+
+    @property
+    def statement(self) -> str:
+        """As it is written."""
+        return str(self.report["property"])
 
     @property
     def proved(self) -> bool:
         """Whether it holds in every step."""
         return self.verdict == "proved"
 
-    def __str__(self) -> str:
-        return self.text
-
-    def _repr_html_(self) -> str:
-        color = "#1a7f37" if self.proved else "#b42318"
-        return f'<pre style="border-left:4px solid {color};padding-left:1em">{html.escape(self.text)}</pre>'
+    def _is_good(self) -> bool:
+        return self.proved
 
 
-@dataclass(frozen=True)
-class Yield:
+class Yield(Result):
     """In how many worlds of a sample a test passes."""
 
     circuit: str
@@ -156,44 +153,51 @@ class Yield:
     """The declared swarm that was tested, if there is one."""
     robots: int
     """The number of its robots."""
-    vary: Mapping[str, float]
+    variation: Mapping[str, float]
     """The largest changes of the worlds."""
-    passed: int
-    """The number of worlds in which the test passes."""
-    worlds: int
-    interval: Tuple[float, float]
-    """The 95 % interval of the share of worlds in which it passes."""
-    fails_first: Tuple[Mapping[str, Any], ...] = field(repr=False)
+    fails_first: Tuple[Mapping[str, Any], ...]
     """The robots that fail first, those of most worlds first: ``net``, ``robot``, ``worlds``."""
-    failures: Tuple[Mapping[str, Any], ...] = field(repr=False)
+    failures: Tuple[Mapping[str, Any], ...]
     """The worlds in which the test fails: ``world``, ``physics``, ``row``, ``line``, ``first``, ``fault``."""
-    text: str = field(repr=False)
-    """All this in lines."""
+
+    @property
+    def vary(self) -> Mapping[str, float]:
+        """The largest changes of the worlds."""
+        return self.variation
+
+    @property
+    def passed(self) -> int:
+        """The number of worlds in which the test passes."""
+        return int(self.report["yield"]["passed"])
+
+    @property
+    def worlds(self) -> int:
+        """The number of worlds."""
+        return int(self.report["yield"]["worlds"])
+
+    @property
+    def interval(self) -> Tuple[float, float]:
+        """The 95 % interval of the share of worlds in which it passes."""
+        return self.report["yield"]["low"], self.report["yield"]["high"]
 
     @property
     def share(self) -> float:
         """The share of worlds in which the test passes."""
         return self.passed / self.worlds
 
-    def __str__(self) -> str:
-        return self.text
 
+class Hardened(Result):
+    """The robots to leave out of a swarm, so that its tests pass in more worlds.
 
-@dataclass(frozen=True)
-class Hardened:
-    """The robots to leave out of a swarm, so that its tests pass in more worlds."""
+    ``text`` is what to write in the library.
+    """
 
     without: Tuple[str, ...]
     """The names of the robots to leave out."""
     reached: bool
     """Whether the tests then pass in enough worlds."""
-    tried: Tuple[Mapping[str, Any], ...] = field(repr=False)
+    tried: Tuple[Mapping[str, Any], ...]
     """The choices in their order: ``without``, ``robots``, ``yield``, ``fails_first``."""
-    text: str = field(repr=False)
-    """What to write in the library."""
-
-    def __str__(self) -> str:
-        return self.text
 
 
 @dataclass(frozen=True)
@@ -251,13 +255,13 @@ class Program:
     @property
     def tests(self) -> Tuple[Mapping[str, Any], ...]:
         """The declared tests: ``circuit``, ``title``, ``file`` and ``line`` of each."""
-        return tuple(json.loads(self._native.tests()))
+        return tuple(self._native.tests())
 
     @property
     def claims(self) -> Tuple[Mapping[str, Any], ...]:
         """What is claimed of its circuits: ``circuit``, ``title``, ``file``, ``line`` and ``properties`` of each
         ``prove`` declaration."""
-        return tuple(json.loads(self._native.claims()))
+        return tuple(self._native.claims())
 
     def compile(
         self,
@@ -445,8 +449,7 @@ class Program:
         sampling = _sampling([vary], [1.0], worlds, seed)
         with reporting(progress, " cycles") as report:
             found = json.loads(self._native.harden(circuit, sampling, least, options, report))
-        data = found["data"]
-        return Hardened(tuple(data["without"]), data["reached"], tuple(data["tried"]), found["text"])
+        return Hardened(found["data"], found["text"])
 
     def run(
         self,
@@ -490,7 +493,7 @@ class Program:
         return _numbers_of("test", self.tests, name)
 
     def _names(self) -> List[str]:
-        return [circuit["name"] for circuit in json.loads(self._native.circuits())]
+        return self._native.circuits()
 
     def _test(
         self, number: int, level: Optional[str], progress: Progress, options: Optional[Dict[str, Any]] = None
@@ -822,46 +825,13 @@ def _numbers_of(what: str, declared: Sequence[Mapping[str, Any]], name: Optional
 
 def _properties(claim: Mapping[str, Any], texts: Sequence[str]) -> List[Property]:
     """The properties of a claim."""
-    return [
-        Property(
-            circuit=claim["circuit"],
-            title=claim.get("title", ""),
-            statement=known["property"],
-            verdict=known["verdict"],
-            method=known.get("method"),
-            steps=known.get("steps"),
-            invariant=tuple(known.get("invariant", ())),
-            empty=known.get("empty"),
-            test=known.get("test"),
-            physics=known.get("physics"),
-            file=claim["file"],
-            line=known["line"],
-            text=text,
-        )
-        for known, text in zip(claim["properties"], texts)
-    ]
+    of_claim = {"circuit": claim["circuit"], "title": claim.get("title", ""), "file": claim["file"]}
+    return [Property(known, text, **of_claim) for known, text in zip(claim["properties"], texts)]
 
 
 def _yields(records: str) -> List[Yield]:
     """The yields of the native half."""
-    return [_yield(record["data"], record["text"]) for record in json.loads(records)]
-
-
-def _yield(data: Dict[str, Any], text: str) -> Yield:
-    passed = data["yield"]
-    return Yield(
-        circuit=data["circuit"],
-        title=data["title"],
-        swarm=data["swarm"],
-        robots=data["robots"],
-        vary=data["variation"],
-        passed=passed["passed"],
-        worlds=passed["worlds"],
-        interval=(passed["low"], passed["high"]),
-        fails_first=tuple(data["fails_first"]),
-        failures=tuple(data["failures"]),
-        text=text,
-    )
+    return [Yield(record["data"], record["text"]) for record in json.loads(records)]
 
 
 def _options(
@@ -893,17 +863,4 @@ def _report(page: str, records: str, passed: bool) -> Report:
 
 
 def _result(record: Mapping[str, Any]) -> TestResult:
-    verdict = record["verdict"]
-    return TestResult(
-        circuit=verdict["circuit"],
-        title=verdict["title"],
-        passed=verdict["passed"],
-        level=verdict["level"],
-        swarm=verdict["swarm"],
-        world=verdict["world"],
-        file=verdict["file"],
-        line=verdict["line"],
-        text=record["text"],
-        rows=tuple(verdict["rows"]),
-        warnings=diagnostics_of(record["warnings"]),
-    )
+    return TestResult(record["data"], record["text"], warnings=diagnostics_of(record["warnings"]))

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import html
 import json
 import os
-from dataclasses import dataclass, field
 from typing import Any, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -16,38 +14,53 @@ from .circuits import Circuit, loads
 from .names import texts
 from .numbers import amount, array_of, count, whole
 from .progress import Progress, reporting
+from .result import Result
 
 __all__ = ["Learned", "learn"]
 
 Path = Union[str, "os.PathLike[str]"]
 
 
-@dataclass(frozen=True)
-class Learned:
-    """A circuit that was learned. In a notebook it is shown with its table of confusions."""
+class Learned(Result):
+    """A circuit that was learned. In a notebook it is shown with its table of confusions.
 
-    name: str
-    """The name of the circuit."""
-    training: float
-    """The share of the training rows that it gets right."""
-    held_out: Optional[float]
-    """The share of the rows that were held out; None if there are none."""
+    ``report`` is the JSON of ``nbc learn``, with all methods that were tried.
+    """
+
     ands: int
     """AND gates, inverters not counted."""
     depth: int
     """The longest path in cells."""
-    values: Tuple[int, ...]
-    """The values of its output, if it has one output with at most 16 values."""
-    confusion: npt.NDArray[np.intp] = field(repr=False)
-    """How often each of the values (columns) came in the place of the one wanted (rows), in the rows that were held
-    out, or else in the training rows; shape (values, values)."""
-    report: Mapping[str, Any] = field(repr=False)
-    """The JSON of ``nbc learn``, with all methods that were tried."""
-    text: str = field(repr=False)
-    """The report in lines."""
-    source: Optional[str] = field(repr=False)
+    source: Optional[str]
     """The circuit as a program; None if it is too large for one."""
-    _picture: Optional[str] = field(repr=False)
+    _picture: Optional[str]
+
+    @property
+    def name(self) -> str:
+        """The name of the circuit."""
+        return str(self.report["circuit"])
+
+    @property
+    def training(self) -> float:
+        """The share of the training rows that it gets right."""
+        return float(self.report["training"]["accuracy"])
+
+    @property
+    def held_out(self) -> Optional[float]:
+        """The share of the rows that were held out; None if there are none."""
+        return self.report["held_out"]["accuracy"] if "held_out" in self.report else None
+
+    @property
+    def values(self) -> Tuple[int, ...]:
+        """The values of its output, if it has one output with at most 16 values."""
+        return tuple(self.report["confusion"]["values"]) if "confusion" in self.report else ()
+
+    @property
+    def confusion(self) -> npt.NDArray[np.intp]:
+        """How often each of the values (columns) came in the place of the one wanted (rows), in the rows that were held
+        out, or else in the training rows; shape (values, values)."""
+        counts = self.report["confusion"]["counts"] if "confusion" in self.report else []
+        return np.array(counts, dtype=np.intp).reshape([len(self.values)] * 2)
 
     @property
     def circuit(self) -> Circuit:
@@ -61,11 +74,8 @@ class Learned:
         (circuit,) = loads(self.source, f"{self.name}.nb").circuits.values()
         return circuit
 
-    def __str__(self) -> str:
-        return self.text
-
     def _repr_html_(self) -> str:
-        return f"<pre>{html.escape(self.text)}</pre>{self._picture or ''}"
+        return super()._repr_html_() + (self._picture or "")
 
 
 def learn(
@@ -126,22 +136,7 @@ def learn(
     }
     with reporting(progress, " parts") as report:
         made = json.loads(_nbc.learn(arguments, report))
-    data = made["data"]
-    confusion = data.get("confusion", {"values": [], "counts": []})
-    held_out = data.get("held_out")
-    return Learned(
-        name=data["circuit"],
-        training=data["training"]["accuracy"],
-        held_out=None if held_out is None else held_out["accuracy"],
-        ands=data["ands"],
-        depth=data["depth"],
-        values=tuple(confusion["values"]),
-        confusion=np.array(confusion["counts"], dtype=np.intp).reshape([len(confusion["values"])] * 2),
-        report=data,
-        text=made["text"],
-        source=made["source"],
-        _picture=made["picture"],
-    )
+    return Learned(made["data"], made["text"], source=made["source"], _picture=made["picture"])
 
 
 def _csv(columns: Mapping[str, Any]) -> str:

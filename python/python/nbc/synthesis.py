@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import dataclass, field
 from typing import Any, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _nbc
 from .errors import Diagnostic, diagnostics_of
 from .names import Effort, Objective, Registers, texts
+from .result import Result
 
 __all__ = ["Synthesis", "synthesize"]
 
 Path = Union[str, "os.PathLike[str]"]
 
 
-@dataclass(frozen=True)
-class Synthesis:
+class Synthesis(Result):
     """A circuit of another tool as cells. Its equality with the file is proved."""
 
     cells: int
@@ -26,16 +25,12 @@ class Synthesis:
     """The number of cells of each function."""
     depth: int
     """The longest path in cells."""
-    registers: int
-    """The registers that are left."""
-    report: Mapping[str, Any] = field(repr=False)
-    """The JSON of ``nbc synth``."""
-    text: str = field(repr=False)
-    """The report in lines."""
-    warnings: Tuple[Diagnostic, ...] = field(repr=False)
+    warnings: Tuple[Diagnostic, ...]
 
-    def __str__(self) -> str:
-        return self.text
+    @property
+    def registers(self) -> int:
+        """The registers that are left."""
+        return int(self.report["latches"])
 
 
 def synthesize(
@@ -95,13 +90,4 @@ def synthesize(
             },
         )
     )
-    data = made["data"]
-    return Synthesis(
-        cells=data["cells"],
-        by_function=data["by_function"],
-        depth=data["depth"],
-        registers=data["latches"],
-        report=data,
-        text=made["text"],
-        warnings=diagnostics_of(made["warnings"]),
-    )
+    return Synthesis(made["data"], made["text"], warnings=diagnostics_of(made["warnings"]))
