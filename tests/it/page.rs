@@ -297,7 +297,7 @@ fn the_page_of_an_evolution_opens_elites_in_a_browser() {
     assert!(page.len() < 5_000_000 && page.contains("of 16 behaviors in") && page.contains("2 seeds together"));
     let data = data(&page);
     let elites = data["elites"].as_array().unwrap();
-    assert!(elites.len() > 4 && elites.iter().all(|elite| elite["frames"].is_string()));
+    assert!(elites.len() > 4 && elites.iter().all(|elite| elite["gait"]["frames"].is_string()));
     let Some(browser) = CHROMIUM.find() else { return };
     let found = found(&browser, &page, EXPLORER, "--window-size=1200,900");
     assert_eq!(found["walked"], true, "the chosen elite walks: {found}");

@@ -1,5 +1,5 @@
-// Generated from the messages of crates/play and the data of pages of results: NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol
-// docs/play-protocol.md describes them.
+// Generated: NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol
+// docs/play-protocol.md describes the messages; the other types are of results.
 
 /** The niches of an archive that have changed in a generation. */
 export type ArchiveChange = {

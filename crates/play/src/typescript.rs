@@ -1,5 +1,5 @@
-//! The types of the messages for the page: `web/src/protocol.ts` is made from the schemas of the requests, of the
-//! server's messages, and of what pages of results contain. `NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol` rewrites it.
+//! The types of the messages for the page, and of what pages of results contain: `web/src/protocol.ts` is made from
+//! their schemas. `NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol` rewrites it.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -15,8 +15,8 @@ use crate::request::Request;
 use nbc_session::report::{EvolutionData, RunData, SheetsData};
 
 const HEAD: &str = "\
-// Generated from the messages of crates/play and the data of pages of results: NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol
-// docs/play-protocol.md describes them.
+// Generated: NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol
+// docs/play-protocol.md describes the messages; the other types are of results.
 ";
 
 #[derive(Default)]
