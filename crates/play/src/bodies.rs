@@ -103,7 +103,7 @@ pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> 
         letters: behavior.to_string(),
         function: behavior.function().name(),
         displacement: displacement.to_vec(),
-        character: sketched,
+        character: sketched.map(Box::new),
         points: gaits[0].points,
         voxels: report::voxel_data(&gaits[0], &body, &shown),
         looks: report::voxel_looks(&shown),

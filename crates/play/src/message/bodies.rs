@@ -55,7 +55,7 @@ pub(crate) struct ProbeReport {
     pub(crate) function: &'static str,
     pub(crate) displacement: Vec<f64>,
     /// Over a few switches.
-    pub(crate) character: Option<Character>,
+    pub(crate) character: Option<Box<Character>>,
     pub(crate) points: usize,
     pub(crate) voxels: Vec<[usize; 5]>,
     pub(crate) looks: Vec<VoxelLook>,
