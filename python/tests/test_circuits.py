@@ -37,8 +37,9 @@ def test_a_latch_remembers(latch):
 
 
 def test_tests_are_those_of_the_program(program, root):
-    results = nbc.load(root / "circuits/latch.nb").test(level="physics")
-    found = json.loads(program("test", "circuits/latch.nb", "--physics", "--format", "json"))
+    path = root / "circuits/latch.nb"
+    results = nbc.load(path).test(level="physics")
+    found = json.loads(program("test", path, "--physics", "--format", "json"))
     for name, value in found["tests"][0].items():
         shown = getattr(results[0], name)
         assert (list(shown) if isinstance(value, list) else shown) == value, name
