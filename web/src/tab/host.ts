@@ -3,20 +3,19 @@
 import type { BrowserFolder, Dial, LineEvents, Ways } from "../line";
 import { Observable } from "../observable";
 import type { Aside } from "./aside";
-import type { FromWorker, Source, Start, ToWorker } from "./messages";
+import type { FromWorker, LiveParts, Source, Start, ToWorker } from "./messages";
 import { Programs } from "./programs";
 
 export interface TabOptions extends Omit<Start, "program"> {
-  /** Starts a worker. */
   worker: () => Worker;
   program: () => Source;
-  /** The address of the page that live exports are made of, if they can be made. */
-  template?: string;
+  /** The addresses of what live exports are made of, if they can be made. */
+  template?: LiveParts;
 }
 
 /** The most files that are kept for the page to fetch, which it does at once. */
 const MOST_MADE = 8;
-const KEEPS_NOTHING = "This browser keeps no files: save what you need with Take away.";
+const KEEPS_NOTHING = "This browser keeps no files: save what you need from Share.";
 
 export class TabHost implements Ways {
   readonly live: Dial = events => this.#dial("live", events);
@@ -28,15 +27,12 @@ export class TabHost implements Ways {
     remove: path => this.#insert(path, null),
   };
   readonly isPublic = true;
-  /** The addresses of what the program has made. */
   readonly #made = new Map<string, string>();
-  /** The texts of the files by their paths. */
   readonly #files = new Map<string, string>();
   readonly #programs = new Programs(
     () => this.#started({ module: this.#module! }, "", false),
     (message, from) => this.#receive(from, message),
   );
-  /** The paths of files that the browser could not keep. */
   readonly #unkept = new Set<string>();
   #module: WebAssembly.Module | null = null;
   readonly #lines: { live: LineEvents | null; language: LineEvents | null } = { live: null, language: null };
@@ -48,10 +44,8 @@ export class TabHost implements Ways {
     options.files.forEach(([path, text]) => this.#files.set(path, text));
   }
 
-  /** The address of a file that the program has made. */
   readonly file = (address: string): string => this.#made.get(address) ?? address;
 
-  /** Loads what live exports are made of. */
   prepare(): Promise<void> {
     const { template } = this.options;
     if (template === undefined || !this.#isReady) {
@@ -59,7 +53,7 @@ export class TabHost implements Ways {
     }
     return new Promise(resolve => {
       this.#prepared = resolve;
-      this.#programs.work.post({ say: "template", address: template });
+      this.#programs.work.post({ say: "template", ...template });
     });
   }
 
@@ -97,10 +91,9 @@ export class TabHost implements Ways {
 
   #showUnkept(): void {
     const paths = [...this.#unkept].join(", ");
-    this.status.set(paths === "" ? "" : `This browser could not keep ${paths}: save it with Take away.`);
+    this.status.set(paths === "" ? "" : `This browser could not keep ${paths}: save it from Share.`);
   }
 
-  /** Notes a file that the program of the page has. */
   #note(path: string, text: string | null): void {
     if (text === null) {
       this.#files.delete(path);
