@@ -199,6 +199,7 @@ export type LessonCheck = { "is": "shows", values: { [key in string]: number }, 
   | { "is": "circuit", name: string, }
   | { "is": "tests-pass" }
   | { "is": "tests-fail" }
+  | { "is": "passes", test: string, }
   | { "is": "claims-proved" }
   | { "is": "claims-refuted" }
   | { "is": "tests-kept" }
@@ -215,6 +216,8 @@ export type LessonEntry = {
   /** The name of its file without the number and the ending. */
   name: string,
   title: string,
+  /** The chapter that begins with it. */
+  chapter: string | null,
   /** Its paragraphs; code is between backticks. */
   text: Array<string>,
   /** The program that it begins with. */
@@ -352,7 +355,7 @@ export type Request = { id: number, } & ({ "do": "hello" }
   | { "do": "save", path: string, text: string, stamp: string | null, }
   | { "do": "program", path: string, text: string, }
   | { "do": "compile", path: string, circuit: string, swarm: string | null, }
-  | { "do": "test", path: string, test: number, level: TestLevel, }
+  | { "do": "test", path: string, test: ChosenTest, level: TestLevel, }
   | { "do": "prove", path: string, claim: number, }
   | { "do": "replay", path: string, test: ChosenTest, swarm: string | null, world?: string, row: number, }
   | { "do": "inputs", bits: string, }

@@ -25,7 +25,7 @@ test("a lost program is noticed, and the page goes on where it was", async () =>
     here.page,
     LATCH.replace("d_latch(d, e)", "my_latch(d, e)").replace("test d_latch", "test my_latch"),
   );
-  await here.page.waitForFunction(() => document.querySelector(".schematic").textContent.includes("my_latch"));
+  await here.page.waitForFunction(() => document.querySelector(".crumbs").textContent.includes("my_latch"));
   await walking(here.page);
   await here.program.stop();
   await here.page.getByText("Connection lost").waitFor();

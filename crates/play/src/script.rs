@@ -2,6 +2,7 @@
 
 use crate::jobs::Job;
 use crate::message::{ShownEnvironment, ShownMemory, ShownScript};
+use crate::programs;
 use crate::refusal::Refused;
 use nbc_session::{Checked, Compiled, EnvironmentRow, EnvironmentRun, Session, TestCase, TestOptions};
 use nbc_swarm::Level;
@@ -30,9 +31,8 @@ pub(super) fn begin(
     TestMoment { test, swarm, world, row }: TestMoment<'_>,
     job: &Job,
 ) -> Result<(Compiled, GivenInputs), Refused> {
-    let tests = &checked.program.tests;
-    let test = test.map_or_else(|| tests.last(), |test| tests.get(test)).ok_or(Refused::NoTest)?;
-    let options = TestOptions { level: Some(Level::Physics), compile: job.options() };
+    let test = programs::chosen_test(checked, test)?;
+    let options = TestOptions { level: Some(Level::Physics), compile: programs::options(checked, &test.circuit, job) };
     let cases = session.cases(checked, test, &options)?;
     let is_meant =
         |case: &TestCase| (swarm.is_none() || case.swarm() == swarm) && (world.is_none() || case.world_name() == world);

@@ -4,7 +4,9 @@ import type { BrowserFolder, Dial, LineEvents, Ways } from "../line";
 import { Observable } from "../observable";
 import type { Aside } from "./aside";
 import type { FromWorker, LiveParts, Source, Start, ToWorker } from "./messages";
+import { MadeFiles } from "./made";
 import { Programs } from "./programs";
+import { Texts } from "./texts";
 
 export interface TabOptions extends Omit<Start, "program"> {
   worker: () => Worker;
@@ -13,8 +15,6 @@ export interface TabOptions extends Omit<Start, "program"> {
   template?: LiveParts;
 }
 
-/** The most files that are kept for the page to fetch, which it does at once. */
-const MOST_MADE = 8;
 const KEEPS_NOTHING = "This browser keeps no files: save what you need from Share.";
 
 export class TabHost implements Ways {
@@ -22,18 +22,17 @@ export class TabHost implements Ways {
   readonly language: Dial = events => this.#dial("language", events);
   readonly status = new Observable("Loading the simulator …");
   readonly folder: BrowserFolder = {
-    files: () => [...this.#files].sort(([a], [b]) => (a < b ? -1 : 1)),
+    files: () => this.#texts.all,
     insert: (path, text) => this.#insert(path, text),
     remove: path => this.#insert(path, null),
   };
   readonly isPublic = true;
-  readonly #made = new Map<string, string>();
-  readonly #files = new Map<string, string>();
+  readonly #made = new MadeFiles();
+  readonly #texts = new Texts();
   readonly #programs = new Programs(
     () => this.#started({ module: this.#module! }, "", false),
     (message, from) => this.#receive(from, message),
   );
-  readonly #unkept = new Set<string>();
   #module: WebAssembly.Module | null = null;
   readonly #lines: { live: LineEvents | null; language: LineEvents | null } = { live: null, language: null };
   #worker: Worker | null = null;
@@ -41,10 +40,10 @@ export class TabHost implements Ways {
   #isReady = false;
 
   constructor(private readonly options: TabOptions) {
-    options.files.forEach(([path, text]) => this.#files.set(path, text));
+    options.files.forEach(file => this.#texts.note(...file));
   }
 
-  readonly file = (address: string): string => this.#made.get(address) ?? address;
+  readonly file = (address: string): string => this.#made.address(address);
 
   prepare(): Promise<void> {
     const { template } = this.options;
@@ -89,17 +88,8 @@ export class TabHost implements Ways {
     this.#note(path, text);
   }
 
-  #showUnkept(): void {
-    const paths = [...this.#unkept].join(", ");
-    this.status.set(paths === "" ? "" : `This browser could not keep ${paths}: save it from Share.`);
-  }
-
   #note(path: string, text: string | null): void {
-    if (text === null) {
-      this.#files.delete(path);
-    } else {
-      this.#files.set(path, text);
-    }
+    this.#texts.note(path, text);
     this.#programs.insert(path, text);
   }
 
@@ -116,7 +106,7 @@ export class TabHost implements Ways {
       event.preventDefault();
       this.#fail(event.message ?? "the worker cannot be started");
     };
-    post(worker, { say: "begin", program, first, files: [...this.#files], keeps });
+    post(worker, { say: "begin", program, first, files: this.#texts.all, keeps });
     return worker;
   }
 
@@ -132,7 +122,7 @@ export class TabHost implements Ways {
         }
         this.#isReady = true;
         this.#module = message.module;
-        message.files.forEach(([path, text]) => this.#files.set(path, text));
+        message.files.forEach(file => this.#texts.note(...file));
         this.status.set(message.keeps || !this.options.keeps ? "" : KEEPS_NOTHING);
         this.#programs.prepare();
         this.#lines.live?.opened();
@@ -150,16 +140,9 @@ export class TabHost implements Ways {
       case "template":
         this.#prepared();
         break;
-      case "file": {
-        const { address, type, bytes } = message;
-        this.#made.set(address, URL.createObjectURL(new Blob([bytes], { type })));
-        const [oldest] = this.#made;
-        if (oldest !== undefined && this.#made.size > MOST_MADE) {
-          this.#made.delete(oldest[0]);
-          URL.revokeObjectURL(oldest[1]);
-        }
+      case "file":
+        this.#made.add(message.address, message.type, message.bytes);
         break;
-      }
       case "wrote":
         if (from === this.#worker) {
           this.#note(message.path, message.text);
@@ -168,8 +151,7 @@ export class TabHost implements Ways {
         }
         break;
       case "kept":
-        this.#unkept[message.isKept ? "delete" : "add"](message.path);
-        this.#showUnkept();
+        this.status.set(this.#texts.noteKept(message.path, message.isKept));
         break;
       case "failed":
         this.#fail(message.message);
@@ -177,7 +159,6 @@ export class TabHost implements Ways {
     }
   }
 
-  /** A program has failed: all are started again. */
   #fail(message: string): void {
     if (this.#worker === null) {
       return;
