@@ -40,8 +40,7 @@
 //! let mut search = session.prove(&checked, claim, budget, nbc::CancelFlag::default())?;
 //! while search.advance(&mut ()) {}
 //! let decided = search.finish();
-//! let report = nbc::ClaimReport::of(&decided);
-//! assert_eq!([0, 1].map(|property| report.properties()[property].verdict), ["proved", "refuted"]);
+//! assert_eq!([0, 1].map(|property| decided.properties[property].verdict), ["proved", "refuted"]);
 //! let (_, test) = decided.refuted().next().unwrap();
 //! assert!(session.test(&checked, test, &nbc::TestOptions::default(), &mut ())?[0].verdict.passed);
 //! # Ok::<(), nbc::Diagnostics>(())
@@ -181,7 +180,7 @@ pub use nbc_base::model::{CircuitTest, Claim, Variation};
 pub use nbc_circuit::properties::SearchBudget;
 #[cfg(feature = "disk")]
 pub use nbc_session::run_file;
-pub use nbc_session::{ClaimReport, ClaimSearch, DecidedClaim, PropertyReport};
+pub use nbc_session::{ClaimSearch, DecidedClaim, DecidedProperty};
 pub use nbc_session::{Experiment, TestCase, WorldResult, WorldRun, YieldTally, Yields};
 pub use nbc_session::{Hardened, Hardening, HardeningStep};
 pub use nbc_session::{RunList, RunReport, RunningTest, SimulationRun, TestOptions, TestRun};

@@ -58,7 +58,7 @@ impl Compiled {
 impl Compiled {
     fn summary_json(&self) -> String {
         let nbc::Compiled { plan, mapping, assembly, warnings, .. } = &*self.compiled;
-        let warnings = nbc::Diagnostics { list: warnings.clone(), sources: self.checked.sources.clone() }.json();
+        let warnings = nbc::Diagnostics { list: warnings.clone(), sources: self.checked.sources.clone() }.findings();
         let robot = |member: &nbc::Member| {
             json!({
                 "net": member.net,

@@ -14,7 +14,7 @@ fn exception<'py>(py: Python<'py>, name: &str, arguments: impl pyo3::call::PyCal
 
 /// The exception for diagnostics.
 pub fn diagnosed(py: Python<'_>, found: &Diagnostics) -> PyErr {
-    let data = serde_json::to_string(&found.json()).expect("diagnostics are data");
+    let data = serde_json::to_string(&found.findings()).expect("diagnostics are data");
     exception(py, "_diagnosed", (found.to_string(), data))
 }
 

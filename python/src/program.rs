@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use nbc::{
-    Checked, Choice, ClaimReport, CompileOptions, Diagnostics, DiskWorld, Effort, GuardedWorld, Hardened, Hardening,
+    Checked, Choice, CompileOptions, Diagnostics, DiskWorld, Effort, GuardedWorld, Hardened, Hardening,
     ImageSize,
 };
 use nbc::{Level, MappingObjective, Room, RunReport, SearchBudget, Session, TestOptions, TestRun, Yields};
@@ -76,7 +76,7 @@ impl Program {
 
     /// Its warnings, as JSON.
     fn diagnostics(&self, py: Python<'_>) -> PyResult<String> {
-        at_once(py, || Ok(json!(self.checked.json()).to_string()))
+        at_once(py, || Ok(json!(self.checked.findings()).to_string()))
     }
 
     /// The circuits of the file itself with their ports, as JSON.
@@ -177,20 +177,20 @@ impl Program {
             while search.advance(&mut watch.observer()) {}
             Ok(search.finish())
         })?;
-        let decided = found.finished()?.map_err(|found: Diagnostics| diagnosed(py, &found))?;
-        let mut report = ClaimReport::of(&decided);
-        for (property, test) in decided.refuted().filter(|_| physics) {
+        let mut decided = found.finished()?.map_err(|found: Diagnostics| diagnosed(py, &found))?;
+        let tests: Vec<_> = decided.refuted().map(|(property, test)| (property, test.clone())).collect();
+        for (property, test) in tests.into_iter().filter(|_| physics) {
             let watch = Watch::over(0);
             let compile = compiling.options(py, &self.session, &watch)?;
             let options = TestOptions { level: Some(Level::Physics), compile };
-            let (session, checked, test) = (self.session.clone(), self.checked.clone(), test.clone());
+            let (session, checked) = (self.session.clone(), self.checked.clone());
             let ran = work::run(py, &watch, progress.as_ref(), move |watch| {
                 session.test(&checked, &test, &options, &mut watch.observer())
             })?;
-            report.note_runs(property, &ran.finished()?.map_err(|found| diagnosed(py, &found))?);
+            decided.note_runs(property, &ran.finished()?.map_err(|found| diagnosed(py, &found))?);
         }
-        let data = serde_json::to_value(&report).map_err(|error| internal(py, &error.to_string()))?;
-        let texts: Vec<String> = report.properties().iter().map(nbc::PropertyReport::text).collect();
+        let data = serde_json::to_value(&decided).map_err(|error| internal(py, &error.to_string()))?;
+        let texts: Vec<String> = decided.properties.iter().map(nbc::DecidedProperty::text).collect();
         Ok(json!({ "data": data, "texts": texts }).to_string())
     }
 
@@ -273,7 +273,7 @@ impl Program {
         at_once(py, || {
             let verdict = serde_json::to_value(&run.verdict).map_err(|error| internal(py, &error.to_string()))?;
             let warnings = nbc::Diagnostics { list: run.warnings.clone(), sources: self.checked.sources.clone() };
-            Ok(json!({ "verdict": verdict, "text": run.to_string(), "warnings": warnings.json() }))
+            Ok(json!({ "verdict": verdict, "text": run.to_string(), "warnings": warnings.findings() }))
         })
     }
 }

@@ -104,5 +104,5 @@ pub fn synthesize(
     let made = work::run(py, &watch, None, move |_| job.run())?.finished()?;
     let (report, warnings) = made.map_err(|found| diagnosed(py, &found))?;
     let data = serde_json::to_value(&report).map_err(|error| internal(py, &error.to_string()))?;
-    Ok(json!({ "data": data, "text": report.text(), "warnings": warnings.json() }).to_string())
+    Ok(json!({ "data": data, "text": report.text(), "warnings": warnings.findings() }).to_string())
 }

@@ -18,8 +18,8 @@ use nbc_base::model::Column;
 use nbc_circuit::formats::{Design, blif, dot, verilog};
 use nbc_circuit::passes;
 use nbc_circuit::timing::fan_out;
-use nbc_circuit::{CellLibrary, NetId, Netlist, Race, levels, races, rings};
-use nbc_session::report::{self, Document, MemoryTimes, PhaseTiming, Schema, WaveTiming};
+use nbc_circuit::{CellLibrary, Memory, NetId, Netlist, Race, levels, races, rings};
+use nbc_session::report::{self, Document, PhaseTiming, Schema, WaveTiming};
 use nbc_session::store::DiskWorld;
 use nbc_session::{CompileOptions, Hardened, Mapping, Session};
 
@@ -147,17 +147,12 @@ fn describe_timing(mapping: &Mapping) -> String {
     if let Some(machine) = waves {
         return WaveTiming::of(machine).describe() + &loads;
     }
-    let path: Vec<String> = timing.critical_path.iter().map(|&id| mapped.net_name(id)).collect();
-    let settles = report::describe_settling(timing.hold, &path, &ring_names(mapped));
+    let path = mapped.net_names(&timing.critical_path);
+    let settles = report::describe_settling(timing.hold, &path, &mapped.net_names(&rings(mapped)));
     let phases = PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), kept).describe();
-    let memory: String =
-        MemoryTimes::all(mapped, &timing, clocks(mapped, library)).iter().map(MemoryTimes::describe).collect();
+    let memory = report::describe_memory(&Memory::all(mapped, &timing, clocks(mapped, library)));
     let unproved = if mapping.unproved_registers { UNPROVED_REGISTERS } else { "" };
     settles + &phases + unproved + &memory + &loads
-}
-
-fn ring_names(mapped: &Netlist) -> Vec<String> {
-    rings(mapped).into_iter().map(|net| mapped.net_name(net)).collect()
 }
 
 fn clocks<'a>(mapped: &'a Netlist, library: &'a CellLibrary) -> impl Fn(NetId) -> u32 + 'a {
@@ -182,7 +177,7 @@ pub(super) struct BuiltCircuit<'a> {
     critical_path: Vec<String>,
     /// The nets of rings of inverters, which keep changing.
     rings: Vec<String>,
-    memory: Vec<MemoryTimes>,
+    memory: Vec<Memory>,
     phases: PhaseTiming,
     /// The steps and phases of a wave machine.
     waves: Option<WaveTiming>,
@@ -235,16 +230,15 @@ impl<'a> BuiltCircuit<'a> {
         let timing = mapping.timing();
         // The rings and loops of a wave machine are its waves.
         let (rings, races) = match waves {
-            None => (ring_names(mapped), races(mapped)),
+            None => (mapped.net_names(&rings(mapped)), races(mapped)),
             Some(_) => (Vec::new(), Some(Vec::new())),
         };
         let name = |id: &NetId| mapped.net_name(*id);
-        let names = |ids: &[NetId]| ids.iter().map(name).collect::<Vec<_>>();
         let fan_out: BTreeMap<NetId, usize> = fan_out(mapped).into_iter().collect();
         let cells = mapped.cells().map(|(id, cell)| BuiltCell {
             name: name(&id),
             function: cell.function.name(),
-            pins: names(&mapped.pins(id)),
+            pins: mapped.net_names(&mapped.pins(id)),
             start: cell.start,
             arrival: timing.arrival(id),
             required: timing.required(id),
@@ -252,19 +246,19 @@ impl<'a> BuiltCircuit<'a> {
             fan_out: fan_out[&id],
         });
         let race = |race: Race| BuiltRace { net: name(&race.net), input: name(&race.input), rises: race.rises };
-        let ports = |ids: &[NetId]| Column::group(&names(ids));
+        let ports = |ids: &[NetId]| Column::group(&mapped.net_names(ids));
         Self {
             circuit: &mapped.name,
             ports: BuiltPorts { inputs: ports(mapped.inputs()), outputs: ports(mapped.outputs()) },
-            inputs: names(mapped.inputs()),
+            inputs: mapped.net_names(mapped.inputs()),
             outputs: mapped.outputs().iter().map(|id| (name(id), name(&mapped.pins(*id)[0]))).collect(),
             cells: cells.collect(),
             by_function: mapped.by_function(),
             depth: levels::depth(mapped),
             hold: timing.hold,
-            critical_path: names(&timing.critical_path),
+            critical_path: mapped.net_names(&timing.critical_path),
             rings,
-            memory: MemoryTimes::all(mapped, &timing, clocks(mapped, library)),
+            memory: Memory::all(mapped, &timing, clocks(mapped, library)),
             phases: PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), kept),
             waves: waves.as_ref().map(WaveTiming::of),
             proved: true,

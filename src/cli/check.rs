@@ -36,7 +36,7 @@ impl CheckArguments {
         let found: Vec<_> = self.files.iter().map(&mut check).collect();
         match context.format {
             OutputFormat::Json => {
-                let diagnostics = found.iter().flat_map(|checked| checked.json()).collect();
+                let diagnostics = found.iter().flat_map(|checked| checked.findings()).collect();
                 context.print_json(Schema::Diagnostics, &DiagnosticList { diagnostics })?
             }
             OutputFormat::Text => {

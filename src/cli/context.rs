@@ -180,7 +180,7 @@ impl Context {
     /// Prints to standard output, if it is JSON.
     pub(super) fn print_diagnostics(&mut self, found: &Diagnostics) {
         if self.format == OutputFormat::Json {
-            let value = DiagnosticList { diagnostics: found.json() };
+            let value = DiagnosticList { diagnostics: found.findings() };
             // The failure itself is what matters if this cannot be written either.
             let _ = self.print_json(Schema::Diagnostics, &value).and_then(|()| self.flush());
         }

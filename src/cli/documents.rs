@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 
-use nbc_base::diag::DiagnosticReport;
+use nbc_base::diag::Finding;
 
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct DiagnosticList {
-    pub diagnostics: Vec<DiagnosticReport>,
+    pub diagnostics: Vec<Finding>,
 }
 
 #[derive(Serialize)]

@@ -20,7 +20,7 @@ use nbc_circuit::formats::{AigerModel, CircuitSource};
 use nbc_circuit::properties::{PropertySearch, SearchBudget};
 use nbc_session::report::Schema;
 use nbc_session::store;
-use nbc_session::{Checked, ClaimReport, DecidedClaim, ModelSearch, Session, TestOptions};
+use nbc_session::{Checked, DecidedClaim, ModelSearch, Session, TestOptions};
 use nbc_swarm::Level;
 
 /// How often the time is checked while the solver works.
@@ -70,7 +70,7 @@ pub struct ProveArguments {
 pub(super) struct ProofResults<'a> {
     /// Whether every property is proved.
     proved: bool,
-    claims: &'a [ClaimReport],
+    claims: &'a [DecidedClaim],
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     interrupted: bool,
 }
@@ -115,7 +115,7 @@ impl ProveArguments {
         self.end(&reports, &interrupt, context)
     }
 
-    fn end(&self, reports: &[ClaimReport], interrupt: &Interrupt, context: &mut Context) -> Result<Status, Failure> {
+    fn end(&self, reports: &[DecidedClaim], interrupt: &Interrupt, context: &mut Context) -> Result<Status, Failure> {
         let [proved, refuted, undecided] = ["proved", "refuted", "undecided"]
             .map(|verdict| reports.iter().map(|report| report.count(verdict)).sum::<usize>());
         let all = refuted + undecided == 0 && !interrupt.is_raised();
@@ -174,20 +174,19 @@ impl ProveArguments {
         file: &Checked,
         claim: &Claim,
         interrupt: &Interrupt,
-    ) -> Result<ClaimReport, Failure> {
+    ) -> Result<DecidedClaim, Failure> {
         let timer = Timer::start(self.seconds, interrupt);
         let mut search = session.prove(file, claim, self.budget(), timer.flag())?;
         decide(search.search());
         drop(timer);
-        let decided = search.finish();
-        let mut report = ClaimReport::of(&decided);
+        let mut decided = search.finish();
         if self.physics && !interrupt.is_raised() {
-            in_physics(session, file, &decided, &mut report, interrupt)?;
+            in_physics(session, file, &mut decided, interrupt)?;
         }
-        Ok(report)
+        Ok(decided)
     }
 
-    fn model(&self, path: &Path, model: AigerModel, interrupt: &Interrupt) -> ClaimReport {
+    fn model(&self, path: &Path, model: AigerModel, interrupt: &Interrupt) -> DecidedClaim {
         let timer = Timer::start(self.seconds, interrupt);
         let mut search = ModelSearch::new(path.display().to_string(), model, self.budget(), timer.flag());
         decide(search.search());
@@ -206,19 +205,19 @@ fn decide(search: &mut PropertySearch) {
 fn in_physics(
     session: &Session,
     file: &Checked,
-    decided: &DecidedClaim,
-    report: &mut ClaimReport,
+    decided: &mut DecidedClaim,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
     let options = TestOptions { level: Some(Level::Physics), ..TestOptions::default() };
-    for (property, test) in decided.refuted() {
+    let tests: Vec<_> = decided.refuted().map(|(property, test)| (property, test.clone())).collect();
+    for (property, test) in tests {
         let mut runs = Vec::new();
-        for case in session.cases(file, test, &options)? {
+        for case in session.cases(file, &test, &options)? {
             let bar = Progress::new("simulating", case.work());
             runs.push(session.run_case(case, &mut interrupt.observe(bar.whole())));
         }
         if !interrupt.is_raised() {
-            report.note_runs(property, &runs);
+            decided.note_runs(property, &runs);
         }
     }
     Ok(())

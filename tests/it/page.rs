@@ -84,6 +84,7 @@ fn verdict(trace: &SwarmTrace) -> TestVerdict {
         level: Level::Physics,
         printed: None,
         proof: None,
+        fault: None,
         rows_from: None,
         passed: rows.iter().all(|row| row.passed),
         inputs: test.inputs,

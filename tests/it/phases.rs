@@ -57,11 +57,11 @@ fn works_at_the_least_times(elements: &[Element], netlist: &Netlist, random: &mu
     let kinds = kinds(netlist, random);
     let timing = Timing::with(netlist, Delays::Clock, |id| &kinds[&id]);
     let all = ClockTimes::all(netlist, &timing.storage, timing.hold, |id| &kinds[&id]);
-    let Some(times) = all.iter().find(|times| times.clock == netlist.inputs()[CLOCK]) else { return };
+    let Some(times) = all.iter().find(|times| times.clock == netlist.net_name(netlist.inputs()[CLOCK])) else { return };
     assert!(times.races.is_empty(), "an inverter of at most two cycles is no risk\n{netlist}");
-    let is_data = |net: NetId| netlist.inputs()[..2].contains(&net);
+    let data = netlist.net_names(&netlist.inputs()[..2]);
     let most = |of: fn(&nbc_circuit::timing::InputTimes) -> u32| {
-        times.inputs.iter().filter(|input| is_data(input.input)).map(of).max().unwrap_or(0) as usize
+        times.inputs.iter().filter(|input| data.contains(&input.input)).map(of).max().unwrap_or(0) as usize
     };
     let (setup, hold) = (most(|input| input.setup), most(|input| input.hold));
     let (high, low) = match random.random_range(0..3) {

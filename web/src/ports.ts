@@ -1,9 +1,9 @@
 // Ports as bits and as numbers. Bits are in order of the ports, the most significant bit of a port first.
 
-import type { PortEntry } from "./protocol";
+import type { Column } from "./protocol";
 
 export interface PortBit {
-  port: PortEntry;
+  port: Column;
   /** Within the port, 0 the least significant. */
   place: number;
   /** Among the bits of all ports. */
@@ -12,15 +12,15 @@ export interface PortBit {
   name: string;
 }
 
-export function totalWidth(ports: PortEntry[]): number {
+export function totalWidth(ports: Column[]): number {
   return ports.reduce((sum, port) => sum + port.width, 0);
 }
 
-export function offsetOf(ports: PortEntry[], port: PortEntry): number {
+export function offsetOf(ports: Column[], port: Column): number {
   return totalWidth(ports.slice(0, ports.indexOf(port)));
 }
 
-export function bitsOf(ports: PortEntry[]): PortBit[] {
+export function bitsOf(ports: Column[]): PortBit[] {
   let index = 0;
   return ports.flatMap(port =>
     Array.from({ length: port.width }, (_, i) => {
@@ -47,7 +47,7 @@ export function withBit(text: string, index: number, bit: number): string {
 }
 
 /** The bits of inputs `after`, where ports that were among `before` keep their values. */
-export function keepBits(text: string, before: PortEntry[], after: PortEntry[]): string {
+export function keepBits(text: string, before: Column[], after: Column[]): string {
   const kept = after.map(port => {
     const same = before.find(other => other.name === port.name && other.width === port.width);
     const start = same === undefined ? 0 : offsetOf(before, same);

@@ -3,27 +3,23 @@
 
 /** The niches of an archive that have changed in a generation. */
 export type ArchiveChange = {
-  id: number,
-  generation: number,
   axes: Array<AxisEntry>,
-  niches: Array<NicheEntry>,
   evaluations: number,
+  generation: number,
+  id: number,
+  niches: Array<NicheEntry>,
 };
 
 /** The name of an axis and its number of bins. */
 export type AxisEntry = [string, number];
 
-export type BitSource = { "input": number }
-  | { "robot": number }
-  | { "constant": boolean };
-
 /** The character of a body over a few switches. */
 export type CharacterSketch = {
   clock: number,
-  margin: number,
   errors: number,
-  switches: number,
   glitches: number,
+  margin: number,
+  switches: number,
   topples: boolean,
 };
 
@@ -31,23 +27,19 @@ export type CharacterSketch = {
 export type ChosenTest = number | string;
 
 export type CircuitEntry = {
-  name: string,
   /** What `compile` takes, such as `adder[8]`. */
   circuit: string,
-  swarms: Array<string>,
   line: number,
-};
-
-export type ClaimAnswer = {
-  properties: Array<PropertyAnswer>,
+  name: string,
+  swarms: Array<string>,
 };
 
 export type ClaimEntry = {
-  index: number,
   circuit: string,
-  title: string,
+  index: number,
   line: number,
   properties: Array<PropertyEntry>,
+  title: string,
 };
 
 export type ClassCourse = {
@@ -56,17 +48,17 @@ export type ClassCourse = {
 
 export type ClassLesson = {
   name: string,
-  title: string,
   /** The tasks of its steps. */
   steps: Array<string>,
+  title: string,
 };
 
 export type ClassMember = {
+  /** The number of finished lessons. */
+  finished: number,
   name: string,
   /** Where the learner is; none outside of lessons. */
   place: ClassPlace | null,
-  /** The number of finished lessons. */
-  finished: number,
   /** Seconds since the place has changed. */
   seconds: number,
 };
@@ -77,10 +69,10 @@ export type ClassName = {
 };
 
 export type ClassPlace = {
-  /** The name of the lesson. */
-  lesson: string,
   /** The steps of it that are done. */
   done: number,
+  /** The name of the lesson. */
+  lesson: string,
   /** The size of their smallest circuit in it. */
   size: number | null,
 };
@@ -90,22 +82,69 @@ export type ClassRoll = {
   most: number,
 };
 
+/** A port with its width: a column of a test, a waveform or a table. */
+export type Column = {
+  /** The members of its enumeration with their digits: `[["fetch", "0"], ["execute", "1"]]`. */
+  members?: Array<[string, string]>,
+  name: string,
+  /** The width in bits, at least 1. */
+  width: number,
+};
+
+/** A claim, or the properties of a model, with a verdict on each property except assumptions. */
+export type DecidedClaim = {
+  circuit?: string,
+  file: string,
+  line?: number,
+  properties: Array<DecidedProperty>,
+  title?: string,
+  /** Calls of the solver plus learned clauses. */
+  work: number,
+};
+
+export type DecidedProperty = {
+  /** Why the proof is vacuous. */
+  empty?: string,
+  /** What the verdict is based on, in words. */
+  how: string,
+  /** Clauses that hold in every step. */
+  invariant?: Array<string>,
+  /** `None` for a model. */
+  line?: number,
+  /** `induction` or `invariant`. */
+  method?: string,
+  /** Whether robots do the same as the test. */
+  physics?: boolean,
+  /** As written, or the name of a bad state of a model. */
+  property: string,
+  /** Steps of the induction or of the run, or the first steps in which it is known to hold. */
+  steps?: number,
+  /** A test that refutes it, in the language. */
+  test?: string,
+  /** `proved`, `refuted` or `undecided`. */
+  verdict: "proved" | "refuted" | "undecided",
+  /** Numbers of the other properties that this proof needs, from 0. */
+  with?: Array<number>,
+  /** In AIGER's format. */
+  witness?: string,
+};
+
 export type EncodedGait = {
+  cycles: number,
   /** Poses in a cycle. */
   frames: number,
-  cycles: number,
   /** Base64 of numbers as in a frame. */
   poses: string,
 };
 
 export type EvolutionEnd = {
-  generations: number,
   evaluations: number,
+  generations: number,
 };
 
 export type EvolveRequest = {
   /** The body to start from, if it is not a random one. */
-  body: Array<string> | null,
+  body?: Array<string> | null,
   /** Columns and rows. */
   box: [number, number],
   generations: number,
@@ -113,9 +152,12 @@ export type EvolveRequest = {
 };
 
 export type ExampleEntry = {
-  name: string,
   about: string,
+  name: string,
 };
+
+/** The reason why a simulation failed. */
+export type FaultKind = "unstable" | "non_finite" | "stopped";
 
 /** A file that was read or saved and has another stamp, or none because it is gone. */
 export type FileChange = {
@@ -134,53 +176,57 @@ export type FileStamp = {
 
 export type FileText = {
   path: string,
-  text: string,
   /** A text that changes with the file; none for an example. */
   stamp: string | null,
+  text: string,
 };
 
 export type Finding = {
+  /** `nbc explain CODE` tells more. */
   code: string,
-  severity: "error" | "warning",
-  message: string,
+  /** Edits that do what the help says, if they certainly remove the fault. */
+  fix: FoundFix | null,
+  /** What to do about it. */
   help: string | null,
-  /** The main one first. */
-  labels: Array<FindingLabel>,
+  /** The places, the main one first. */
+  labels: Array<PlacedText>,
+  message: string,
   /** Notes at other places. */
-  related: Array<FindingLabel>,
+  related: Array<PlacedText>,
+  severity: Severity,
 };
 
-export type FindingLabel = {
-  file: string,
-  start: TextPlace,
-  end: TextPlace,
-  text: string,
+export type FoundFix = {
+  /** Replacements that do not overlap, in order of place. */
+  edits: Array<PlacedText>,
+  /** What the edits do, for a menu. */
+  title: string,
 };
 
 export type Greeting = {
-  version: string,
-  folder: string,
-  /** The `file:` URI of the folder, for the language server. */
-  root: string,
+  class: boolean,
+  cycle_seconds: number,
+  examples: Array<ExampleEntry>,
   /** The file to open first. */
   file: string | null,
   files: Array<FileEntry>,
-  examples: Array<ExampleEntry>,
+  folder: string,
   limits: PlayLimits,
   /** Whether pages with the whole program in them can be made. */
   live_pages: boolean,
   /** The address of a public page, for links to it. */
   public_page: string | null,
-  class: boolean,
-  cycle_seconds: number,
+  /** The `file:` URI of the folder, for the language server. */
+  root: string,
+  version: string,
 };
 
 export type KeepRequest = {
-  /** The program that is to use it. Its robots are beside it. */
-  path: string | null,
-  name: string,
   body: Array<string>,
-  replace?: boolean,
+  name: string,
+  /** The program that is to use it. Its robots are beside it. */
+  path?: string | null,
+  replace?: boolean | null,
 };
 
 export type KeptRobot = {
@@ -188,47 +234,47 @@ export type KeptRobot = {
   use: string,
 };
 
-export type LessonCheck = { "is": "shows", values: { [key in string]: number }, }
-  | { "is": "keeps", values: { [key in string]: number }, }
-  | { "is": "hides", patterns: Array<{ [key in string]: number }>, }
-  | { "is": "has-shown", patterns: Array<{ [key in string]: number }>, }
-  | { "is": "designs", gate: string, except: boolean, }
-  | { "is": "counts", what: LessonCount, than: LessonComparison, number: number, }
-  | { "is": "robots-only", gates: Array<string>, }
-  | { "is": "without", words: Array<string>, }
-  | { "is": "circuit", name: string, }
-  | { "is": "tests-pass" }
-  | { "is": "tests-fail" }
-  | { "is": "passes", test: string, }
-  | { "is": "claims-proved" }
-  | { "is": "claims-refuted" }
-  | { "is": "tests-kept" }
-  | { "is": "program-changed" }
-  | { "is": "outputs-lit" }
-  | { "is": "evolving" }
-  | { "is": "niche-chosen" };
+export type LessonCheck = { is: "shows", values: { [key in string]: number } }
+  | { is: "keeps", values: { [key in string]: number } }
+  | { is: "hides", patterns: Array<{ [key in string]: number }> }
+  | { is: "has-shown", patterns: Array<{ [key in string]: number }> }
+  | { except: boolean, gate: string, is: "designs" }
+  | { is: "counts", number: number, than: LessonComparison, what: LessonCount }
+  | { gates: Array<string>, is: "robots-only" }
+  | { is: "without", words: Array<string> }
+  | { is: "circuit", name: string }
+  | { is: "tests-pass" }
+  | { is: "tests-fail" }
+  | { is: "passes", test: string }
+  | { is: "claims-proved" }
+  | { is: "claims-refuted" }
+  | { is: "tests-kept" }
+  | { is: "program-changed" }
+  | { is: "outputs-lit" }
+  | { is: "evolving" }
+  | { is: "niche-chosen" };
 
 export type LessonComparison = "<=" | ">=" | "=";
 
 export type LessonCount = "robots" | "cycles" | "niches" | "threads";
 
 export type LessonEntry = {
-  /** The name of its file without the number and the ending. */
-  name: string,
-  title: string,
-  /** The chapter that begins with it. */
-  chapter: string | null,
-  /** Its paragraphs; code is between backticks. */
-  text: Array<string>,
-  /** The program that it begins with. */
-  program: string | null,
-  /** The same as checks look at it. */
-  written: WrittenProgram | null,
-  tab: LessonTab,
-  hints: Array<string>,
   /** The size of the best known circuit, where the learner makes one. */
   best: LessonGoal | null,
+  /** The chapter that begins with it. */
+  chapter: string | null,
+  hints: Array<string>,
+  /** The name of its file without the number and the ending. */
+  name: string,
+  /** The program that it begins with. */
+  program: string | null,
   steps: Array<LessonStep>,
+  tab: LessonTab,
+  /** Its paragraphs; code is between backticks. */
+  text: Array<string>,
+  title: string,
+  /** The same as checks look at it. */
+  written: WrittenProgram | null,
 };
 
 export type LessonGoal = {
@@ -237,214 +283,255 @@ export type LessonGoal = {
 };
 
 export type LessonList = {
-  lessons: Array<LessonEntry>,
   /** What is wrong with the files of an author; such a file gives no lesson. */
   findings: Array<Finding>,
+  lessons: Array<LessonEntry>,
 };
 
 /** How a circuit is measured: by its robots, or by the gates of its source. */
 export type LessonMeasure = "robots" | "gates";
 
 export type LessonStep = {
-  task: string,
   /** The step is done when all of these hold at once. */
   checks: Array<LessonCheck>,
   /** Hints for this step alone. */
   hints: Array<string>,
+  task: string,
 };
 
 export type LessonTab = "swarm" | "tests" | "robots";
 
+export type Level = "physics" | "logic";
+
 export type ListingRow = {
-  /** The digits of the output for which it is, `-` for any; the first row that fits counts. */
-  bits: string,
   /** These digits, and what the table has for them, as in the source. */
   at: string,
-  text: string,
+  /** The digits of the output for which it is, `-` for any; the first row that fits counts. */
+  bits: string,
   line: number,
+  text: string,
 };
 
 export type NicheEntry = {
+  body: Array<string>,
+  fitness: [number, number],
+  function: string,
+  letters: string,
   /** The bin on each axis. */
   place: Array<number>,
-  fitness: [number, number],
-  body: Array<string>,
-  letters: string,
-  function: string,
 };
 
-export type Nothing = Record<symbol, never>;
+export type Nothing = Record<string, never>;
 
 export type PaletteEntry = {
+  about: string,
   /** Its character in the rows of bodies. */
   code: string,
-  name: string,
-  about: string,
   /** Its index in the looks. */
   look: number,
+  name: string,
+};
+
+export type PlacedText = {
+  /** One past the last character. */
+  end: TextPlace,
+  file: string,
+  start: TextPlace,
+  /** What is said of the place; in an edit, the text to write there. */
+  text: string,
 };
 
 /** Events sent without a request. */
-export type PlayEvent = { "event": "archive" } & ArchiveChange
-  | { "event": "changed" } & FileChange
-  | { "event": "stopped", reason: string, };
+export type PlayEvent = { event: "archive" } & ArchiveChange
+  | { event: "changed" } & FileChange
+  | { event: "stopped", reason: string };
 
 export type PlayLimits = {
-  robots: number,
   /** Cycles that can be gone back. */
   cycles: number,
   /** Bytes of a message. */
   message: number,
-};
-
-export type PortEntry = {
-  name: string,
-  width: number,
-  /** The members of its enumeration, each with its name and its digits. */
-  members?: Array<[string, string]>,
+  robots: number,
 };
 
 export type ProbeReport = {
+  character: CharacterSketch | null,
+  displacement: Array<number>,
+  function: string,
   /** Under each pattern: 00, 01, 10 and 11, or 000 to 111. */
   gaits: Array<EncodedGait>,
   letters: string,
-  function: string,
-  displacement: Array<number>,
-  character: CharacterSketch | null,
+  looks: Array<VoxelLook>,
   points: number,
   voxels: Array<[number, number, number, number, number]>,
-  looks: Array<VoxelLook>,
 };
 
 export type ProgramReport = {
-  errors: number,
-  diagnostics: Array<Finding>,
   circuits: Array<CircuitEntry>,
-  tests: Array<TestEntry>,
   claims: Array<ClaimEntry>,
+  diagnostics: Array<Finding>,
+  errors: number,
+  tests: Array<TestEntry>,
   written: WrittenProgram,
 };
 
-export type PropertyAnswer = {
-  verdict: "proved" | "refuted" | "undecided",
-  /** What the verdict is based on, in words. */
-  how: string,
-  /** The test that refutes it, as text. */
-  test: string | null,
-};
-
 export type PropertyEntry = {
-  property: string,
   line: number,
+  property: string,
 };
 
 export type Refusal = {
-  message: string,
-  help: string | null,
   /** A word for what a page reacts to. */
   code: string | null,
+  diagnostics: Array<Finding>,
+  help: string | null,
   /** The path that could be saved at instead. */
   instead: string | null,
-  diagnostics: Array<Finding>,
+  message: string,
 };
 
-export type Request = { id: number, } & ({ "do": "hello" }
-  | { "do": "lessons" }
-  | { "do": "files" }
-  | { "do": "read", path?: string, example?: string, }
-  | { "do": "save", path: string, text: string, stamp: string | null, }
-  | { "do": "program", path: string, text: string, }
-  | { "do": "compile", path: string, circuit: string, swarm: string | null, }
-  | { "do": "test", path: string, test: ChosenTest, level: TestLevel, }
-  | { "do": "prove", path: string, claim: number, }
-  | { "do": "replay", path: string, test: ChosenTest, swarm: string | null, world?: string, row: number, }
-  | { "do": "inputs", bits: string, }
-  | { "do": "clock", bit: number, half: number | null, }
-  | { "do": "run", speed: number | null, }
-  | { "do": "pause" }
-  | { "do": "step", cycles: number, }
-  | { "do": "reset" }
-  | { "do": "seek", cycle: number, }
-  | { "do": "view", robots: Array<number>, }
-  | { "do": "robots", path: string | null, }
-  | { "do": "probe", body: Array<string>, cycles: number, character?: boolean, }
-  | { "do": "keep" } & KeepRequest
-  | { "do": "evolve" } & EvolveRequest
-  | { "do": "take", what: TakeKind, cycles: number, }
-  | { "do": "export", path: string, circuit: string, swarm: string | null, /** Whether the page gets the whole program, or else a recording. */
-live: boolean, }
-  | { "do": "join", name: string, key?: string, }
-  | { "do": "progress", place: ClassPlace | null, finished: number, }
-  | { "do": "leave" }
-  | { "do": "cancel", of: number, });
+export type Request = { id: number } & ({ do: "hello" }
+  | { do: "lessons" }
+  | { do: "files" }
+  | { do: "read", example?: string | null, path?: string | null }
+  | { do: "save", path: string, stamp?: string | null, text: string }
+  | { do: "program", path: string, text: string }
+  | { circuit: string, do: "compile", path: string, swarm?: string | null }
+  | { do: "test", level: Level, path: string, test: ChosenTest }
+  | { claim: number, do: "prove", path: string }
+  | { do: "replay", path: string, row: number, swarm?: string | null, test: ChosenTest, world?: string | null }
+  | { bits: string, do: "inputs" }
+  | { bit: number, do: "clock", half?: number | null }
+  | { do: "run", speed?: number | null }
+  | { do: "pause" }
+  | { cycles: number, do: "step" }
+  | { do: "reset" }
+  | { cycle: number, do: "seek" }
+  | { do: "view", robots: Array<number> }
+  | { do: "robots", path?: string | null }
+  | { body: Array<string>, character?: boolean | null, cycles: number, do: "probe" }
+  | { do: "keep" } & KeepRequest
+  | { do: "evolve" } & EvolveRequest
+  | { cycles: number, do: "take", what: TakeKind }
+  | { circuit: string, do: "export", live: boolean, path: string, swarm?: string | null }
+  | { do: "join", key?: string | null, name: string }
+  | { do: "progress", finished: number, place?: ClassPlace | null }
+  | { do: "leave" }
+  | { do: "cancel", of: number });
 
 export type RobotCard = {
-  name: string,
-  function: string,
-  letters: string,
   about: string,
   /** The rows from the top, a material's code a character. */
   body: Array<string>,
-  width: number,
-  height: number,
-  /** The numbers of the corner points around each voxel, and its index in the looks. */
-  voxels: Array<[number, number, number, number, number]>,
-  points: number,
   clock: number,
-  margin: number,
   errors: number,
-  shipped: boolean,
+  function: string,
+  height: number,
+  letters: string,
+  margin: number,
+  name: string,
   /** Whether it is of the materials that can be painted, so that it can be probed. */
   painted: boolean,
+  points: number,
+  shipped: boolean,
+  /** The numbers of the corner points around each voxel, and its index in the looks. */
+  voxels: Array<[number, number, number, number, number]>,
+  width: number,
 };
 
 export type RobotCards = {
-  robots: Array<RobotCard>,
   looks: Array<VoxelLook>,
   palette: Array<PaletteEntry>,
+  robots: Array<RobotCard>,
 };
 
-export type RowResult = {
-  /** Its number, from 1; both halves of a pulse have the same. */
-  row: number,
-  line: number,
-  /** The thread of a wave machine, from 0. */
-  thread: number | null,
-  inputs: Array<RowValue>,
-  expected: Array<RowValue>,
-  observed: Array<RowValue>,
-  passed: boolean,
+/** The robot of a swarm whose simulation failed first. The swarm has no outputs from its cycle on. */
+export type RobotFault = {
+  /** The cycle, from 0 at the start. */
+  cycle: number,
+  /** The env step that was abandoned, from 1 at the start. */
+  env_step: number,
+  kind: FaultKind,
+  net: string,
+  robot: string,
+};
+
+export type RowSource = {
+  /** The share of the rows in percent that must pass, if not all must. */
+  at_least?: number,
+  file: string,
+};
+
+export type RowVerdict = {
   /** Cycles for which the row was held; none at the level of logic. */
   cycles: number | null,
+  expected: Array<Value>,
+  /** The robot that failed in the row or before it, so that the swarm had no outputs at its end. */
+  fault?: RobotFault,
+  inputs: Array<Value>,
+  /** If the row failed: robots that were wrong although their stimuli had been stable for at least their clock. */
+  lapses: Array<WrongOutput>,
+  /** If the row failed: robots that were wrong in its last cycle and whose stimuli had been stable for less than their clock. */
+  late: Array<WrongOutput>,
+  line: number,
+  /** Cycles for which `hold: auto` would hold it; none at the level of logic. */
+  needed: number | null,
+  /** The values of the output ports at the end of the row; none where a robot failed. */
+  observed: Array<Value>,
+  /** Whether every checked output had its expected value and kept it. */
+  passed: boolean,
+  /** Its number among the rows of the source, from 1; both halves of a pulse have the same. */
+  row: number,
+  /** For each output port, whether it was steady: over the last two cycles in physics, forever at the level of logic. */
+  steady: Array<boolean>,
+  /** The thread of a wave machine, from 0; none in other swarms. */
+  thread?: number,
+  /** How often it was repeated, if that is as often as its `until` permits and it still waited for its value. */
+  until?: number,
 };
 
-export type RowValue = {
-  /** The digits `0`, `1` and `-`. */
-  bits: string,
-  /** As the user writes it. */
-  text: string,
+export type SchematicPages = {
+  /** The bodies of the robots, as SVG. A group `body-K` of a sheet is the place of body `K`. */
+  bodies: Array<string>,
+  /** For each robot, the sheet that shows it. */
+  homes: Array<number>,
+  sheets: Array<SheetPage>,
 };
 
-export type ServerMessage = { id: number, } & ({ "to": "hello", "ok": Greeting }
-  | { "to": "lessons", "ok": LessonList }
-  | { "to": "files", "ok": Array<FileEntry> }
-  | { "to": "read", "ok": FileText }
-  | { "to": "save", "ok": FileStamp }
-  | { "to": "program", "ok": ProgramReport }
-  | { "to": "compile", "ok": SwarmAnswer }
-  | { "to": "replay", "ok": SwarmAnswer }
-  | { "to": "test", "ok": TestAnswer }
-  | { "to": "prove", "ok": ClaimAnswer }
-  | { "to": "robots", "ok": RobotCards }
-  | { "to": "probe", "ok": ProbeReport }
-  | { "to": "keep", "ok": KeptRobot }
-  | { "to": "evolve", "ok": EvolutionEnd }
-  | { "to": "take", "ok": TakenFile }
-  | { "to": "export", "ok": TakenFile }
-  | { "to": "join", "ok": ClassName })
-  | { id: number, ok: Nothing, }
-  | { id: number, error: Refusal, }
-  | { id: number, progress: [number, number], } | PlayEvent;
+export type ServerMessage = { id: number } & ({ ok: Greeting, to: "hello" }
+  | { ok: LessonList, to: "lessons" }
+  | { ok: Array<FileEntry>, to: "files" }
+  | { ok: FileText, to: "read" }
+  | { ok: FileStamp, to: "save" }
+  | { ok: ProgramReport, to: "program" }
+  | { ok: SwarmAnswer, to: "compile" }
+  | { ok: SwarmAnswer, to: "replay" }
+  | { ok: TestAnswer, to: "test" }
+  | { ok: DecidedClaim, to: "prove" }
+  | { ok: RobotCards, to: "robots" }
+  | { ok: ProbeReport, to: "probe" }
+  | { ok: KeptRobot, to: "keep" }
+  | { ok: EvolutionEnd, to: "evolve" }
+  | { ok: TakenFile, to: "take" }
+  | { ok: TakenFile, to: "export" }
+  | { ok: ClassName, to: "join" })
+  | { id: number, ok: Nothing }
+  | { error: Refusal, id: number }
+  | { id: number, progress: [number, number] } | PlayEvent;
+
+/** The severity of a diagnostic. */
+export type Severity = "error" | "warning";
+
+export type SheetPage = {
+  /** More about it, such as `adder, 37 robots`. */
+  about: string,
+  /** The names of the nets of each group `nets-N`. */
+  bundles: Array<Array<string>>,
+  name: string,
+  outer: number | null,
+  /** The drawing: a group `cell-N` is robot `N`, `part-N` the box of sheet `N`, `net-NAME` the wires of a net, and `nets-N` those of several. */
+  svg: string,
+};
 
 /** An input that opens and closes latches. */
 export type ShownClock = {
@@ -456,10 +543,10 @@ export type ShownClock = {
 
 /** What is on the other side of a circuit's ports while a test runs. */
 export type ShownEnvironment = {
+  memories: Array<ShownMemory>,
   name: string,
   /** The text that it writes, each piece with the cycles before it; none if it never writes any. */
   screen: Array<[number, string]> | null,
-  memories: Array<ShownMemory>,
 };
 
 /** A table over an output, such as the instructions of a machine or the transitions of its states. */
@@ -471,14 +558,14 @@ export type ShownListing = {
 /** A memory of an environment. Words are in hexadecimal. */
 export type ShownMemory = {
   name: string,
-  /** Bits of a word. */
-  width: number,
-  /** The number of words. */
-  size: number,
-  /** The words that it begins with, without the zeros at the end. */
-  words: Array<string>,
   /** For each of its reads the addresses, each with the cycles before it. */
   reads: Array<Array<[number, number]>>,
+  /** The number of words. */
+  size: number,
+  /** Bits of a word. */
+  width: number,
+  /** The words that it begins with, without the zeros at the end. */
+  words: Array<string>,
   /** The written words, each with the cycles before it and its address. */
   writes: Array<[number, number, string]>,
 };
@@ -490,193 +577,220 @@ export type ShownRegister = {
   robots: Array<number>,
 };
 
-export type ShownSchematic = {
-  /** The sheets, each after the one around it; the first shows the whole. */
-  sheets: Array<ShownSheet>,
-  bodies: Array<string>,
-  /** For each robot, the sheet that shows it. */
-  homes: Array<number>,
-};
-
 export type ShownScript = {
-  title: string,
   /** The cycles whose inputs it gives. */
   cycles: number,
   environment: ShownEnvironment | null,
-};
-
-export type ShownSheet = {
-  name: string,
-  about: string,
-  outer: number | null,
-  svg: string,
+  title: string,
 };
 
 export type ShownSwarm = {
-  /** Counts the swarms of a connection; frames have its lowest byte. */
-  number: number,
   circuit: string,
-  swarm: string | null,
-  inputs: Array<PortEntry>,
-  outputs: Array<PortEntry>,
-  /** The source of each bit of the outputs. */
-  shown: Array<BitSource>,
-  robots: Array<SwarmRobot>,
-  /** The gates of the circuit as it is written. */
-  gates: number,
-  registers: Array<ShownRegister>,
-  listing: ShownListing | null,
-  looks: Array<VoxelLook>,
-  schematic: ShownSchematic,
-  timing: string,
-  /** Cycles after which every change has settled. */
-  hold: number,
   clocks: Array<ShownClock>,
-  /** Cycles at the start in which the robots take their shape. */
-  start: number,
-  /** The ground's columns, which repeat: the rows from and up to which each is voxels; none if it is flat. */
-  ground: Array<Array<number>>,
   /** Poses in a cycle. */
   frames: number,
-  waves: ShownWaves | null,
+  /** The gates of the circuit as it is written. */
+  gates: number,
+  /** The ground's columns, which repeat: the rows from and up to which each is voxels; none if it is flat. */
+  ground: Array<Array<number>>,
+  /** Cycles after which every change has settled. */
+  hold: number,
+  inputs: Array<Column>,
+  listing: ShownListing | null,
+  looks: Array<VoxelLook>,
+  /** Counts the swarms of a connection; frames have its lowest byte. */
+  number: number,
+  outputs: Array<Column>,
+  registers: Array<ShownRegister>,
+  robots: Array<SwarmRobot>,
+  schematic: SchematicPages,
   script: ShownScript | null,
+  /** The source of each bit of the outputs. */
+  shown: Array<StimulusSource>,
+  /** Cycles at the start in which the robots take their shape. */
+  start: number,
+  swarm: string | null,
+  timing: string,
+  waves: ShownWaves | null,
 };
 
 /** A wave machine; docs/play-protocol.md says whose wave a robot carries in a cycle. */
 export type ShownWaves = {
-  /** Cycles of a step. */
-  step: number,
   /** Cycles of a beat. */
   beat: number,
-  /** Machines that run at once on the same robots. */
-  threads: number,
-  /** For each robot, the beat of a step in which it reads its stimuli. */
-  phases: Array<number>,
   /** The cycle in which the first step of the first thread begins, from 0. */
   begins: number,
   /** The bit of the inputs that is the clock, which no robot senses. */
   clock: number | null,
+  /** For each robot, the beat of a step in which it reads its stimuli. */
+  phases: Array<number>,
   registers: Array<WaveRegister>,
+  /** Cycles of a step. */
+  step: number,
+  /** Machines that run at once on the same robots. */
+  threads: number,
 };
+
+/** The source of a stimulus or of an output port's bit. */
+export type StimulusSource = { input: number }
+  | { robot: number }
+  | { constant: boolean };
 
 export type SwarmAnswer = {
   swarm: ShownSwarm,
 };
 
 export type SwarmRobot = {
-  /** The name by which files and the schematic know its net. */
-  net: string,
-  /** The name in the source, or for a net without one what drives it, such as `nand(d, e)`. */
-  label: string,
-  /** Whether the source has a name for it. */
-  named: boolean,
-  function: string,
-  robot: string,
   /** Words with their texts. */
   about: Array<[string, string]>,
-  senses: Array<BitSource>,
   /** The rows from the top. */
   body: Array<string>,
+  clock: number,
+  errors: number,
+  function: string,
+  /** The name in the source, or for a net without one what drives it, such as `nand(d, e)`. */
+  label: string,
+  margin: number,
+  /** Whether the source has a name for it. */
+  named: boolean,
+  /** The name by which files and the schematic know its net. */
+  net: string,
+  points: number,
+  robot: string,
+  senses: Array<StimulusSource>,
   /** Columns and rows. */
   size: [number, number],
   /** The numbers of the corner points around each voxel, and its index in the looks. */
   voxels: Array<[number, number, number, number, number]>,
-  points: number,
-  clock: number,
-  margin: number,
-  errors: number,
 };
 
 export type TakeKind = "page" | "gif" | "png" | "svg" | "vcd" | "csv";
 
 export type TakenFile = {
+  name: string,
   /** Relative to the page. It works once. */
   url: string,
-  name: string,
 };
 
 /** A result for each swarm of its circuit in each world of the test. */
 export type TestAnswer = {
-  results: Array<TestResult>,
+  results: Array<TestVerdict>,
 };
 
 export type TestEntry = {
-  index: number,
   circuit: string,
-  title: string,
-  line: number,
   /** Whether it is decided for ever, at the level of logic alone. */
   ever: boolean,
-  inputs: Array<PortEntry>,
-  outputs: Array<PortEntry>,
   /** What it gives to its circuit, in words: `all inputs`, `for ever`, or the number of rows. */
   extent: string,
+  index: number,
+  inputs: Array<Column>,
+  line: number,
+  outputs: Array<Column>,
   /** The first rows. None if they are found only when the test runs. */
   rows: Array<TestRowEntry>,
-};
-
-export type TestLevel = "logic" | "physics";
-
-export type TestResult = {
-  circuit: string,
   title: string,
-  swarm: string | null,
-  /** The world of the swarm; none at the level of logic. */
-  world: string | null,
-  fault: string | null,
-  level: TestLevel,
-  passed: boolean,
-  line: number,
-  inputs: Array<PortEntry>,
-  outputs: Array<PortEntry>,
-  rows: Array<RowResult>,
-  printed: string | null,
-  /** How a test for ever was decided, in words. */
-  proof: string | null,
 };
 
 export type TestRowEntry = {
-  row: number,
-  line: number,
   inputs: Array<string>,
+  line: number,
   outputs: Array<string>,
+  row: number,
 };
 
-/** A place in a text: its byte from 0, its line and column from 1. */
-export type TextPlace = {
-  byte: number,
+export type TestVerdict = {
+  circuit: string,
+  /** How a robot failed, in words: `robot nand_5x5 on net q became unstable in cycle 3`. */
+  fault?: string,
+  file: string,
+  inputs: Array<Column>,
+  level: Level,
   line: number,
+  outputs: Array<Column>,
+  /** Whether all rows passed, or as many as the test asks for. */
+  passed: boolean,
+  /** What the environment of the test wrote as text. */
+  printed?: string,
+  /** How a test for ever was decided, in words: `proved by induction over 1 step`. */
+  proof?: string,
+  rows: Array<RowVerdict>,
+  /** The file of its rows, if the source does not have them. */
+  rows_from?: RowSource,
+  /** The declared swarm, if it is one. */
+  swarm: string | null,
+  title: string,
+  /** Robots that make errors or have a thin margin. */
+  weak_robots: Array<WeakRobot>,
+  /** The world of the swarm; none at the level of logic, which has no worlds. */
+  world: string | null,
+};
+
+export type TextPlace = {
+  /** From 0. */
+  byte: number,
+  /** From 1, in characters. */
   column: number,
+  /** From 1. */
+  line: number,
+};
+
+/** A `Value` as data. */
+export type Value = {
+  /** The most significant bit first; `-` where nothing is expected or a robot failed. */
+  bits: string,
+  /** As the user writes it, such as `4'd5`. */
+  text: string,
 };
 
 export type VoxelLook = {
-  name: string,
   color: string,
-  ink: string | null,
+  ink?: string,
   /** Polygons within the unit square. */
-  mark: Array<Array<[number, number]>> | null,
+  mark?: Array<Array<[number, number]>>,
+  name: string,
 };
 
 /** Where and when a bit of such a register is seen. */
 export type WaveBit = {
-  source: BitSource,
   /** The cycles from the beginning of the step after to the one at whose end the source has the bit. */
   after: number,
+  source: StimulusSource,
   /** The values after no step, after one, and so on, before the source has any. */
   starts: Array<boolean>,
 };
 
 export type WaveRegister = {
-  name: string,
   /** The most significant first. */
   bits: Array<WaveBit>,
+  name: string,
+};
+
+/** A robot of a swarm with errors or a thin margin. */
+export type WeakRobot = {
+  /** Wrong outputs as a share of the switches. */
+  error_rate: number,
+  /** Its margin in voxels a cycle. */
+  margin: number,
+  nets: Array<string>,
+  robot: string,
 };
 
 export type WrittenProgram = {
+  /** The lines of its tests and claims. */
+  kept: Array<string>,
   /** Its tokens, with a space between two. */
   text: string,
   /** The words and signs of its circuits, each once, and `calls` if they call circuits of other files. */
   words: Array<string>,
-  /** The lines of its tests and claims. */
-  kept: Array<string>,
+};
+
+/** A robot whose output was not its function of its stimuli. */
+export type WrongOutput = {
+  /** The cycle, from 0 at the test's start. */
+  cycle: number,
+  net: string,
+  output: boolean,
+  robot: string,
+  sensed: Array<boolean>,
 };

@@ -1,10 +1,10 @@
 // What is pointed at and what is followed, the same in all views of a swarm.
 
 import { Observable } from "./observable";
-import type { BitSource } from "./protocol";
+import type { StimulusSource } from "./protocol";
 
 export class Selection {
-  readonly pointed = new Observable<BitSource | null>(null);
+  readonly pointed = new Observable<StimulusSource | null>(null);
   readonly followed = new Observable<number | null>(null);
   /** The robots of the part of the circuit that is open; null are all. */
   readonly opened = new Observable<number[] | null>(null);
@@ -12,7 +12,7 @@ export class Selection {
   /** Whether the stage shows all robots at once, however small. */
   readonly together = new Observable(false);
 
-  point(source: BitSource | null): void {
+  point(source: StimulusSource | null): void {
     if (!sameSource(source, this.pointed.value)) {
       this.pointed.set(source);
     }
@@ -30,7 +30,7 @@ export class Selection {
   }
 }
 
-export function sameSource(a: BitSource | null, b: BitSource | null): boolean {
+export function sameSource(a: StimulusSource | null, b: StimulusSource | null): boolean {
   if (a === null || b === null) {
     return a === b;
   }

@@ -52,7 +52,7 @@ test("a recorded body walks from frame to frame", () => {
 });
 
 test("the path to a sheet begins with the whole", () => {
-  const sheet = (outer: number | null) => ({ name: "", about: "", outer, svg: "" });
+  const sheet = (outer: number | null) => ({ name: "", about: "", outer, svg: "", bundles: [] });
   assert.deepEqual(pathTo([sheet(null), sheet(0), sheet(1)], 2), [0, 1, 2]);
 });
 

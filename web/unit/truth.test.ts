@@ -2,12 +2,12 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { truthRows } from "../src/live/truth";
-import type { BitSource, ShownSwarm } from "../src/protocol";
+import type { StimulusSource, ShownSwarm } from "../src/protocol";
 
 interface Given {
   inputs: [string, number][];
-  robots: [string, BitSource[]][];
-  shown: BitSource[];
+  robots: [string, StimulusSource[]][];
+  shown: StimulusSource[];
   waves?: object;
 }
 
@@ -20,9 +20,9 @@ function swarm({ inputs, robots, shown, waves }: Given): ShownSwarm {
   } as unknown as ShownSwarm;
 }
 
-const input = (bit: number): BitSource => ({ input: bit });
-const robot = (index: number): BitSource => ({ robot: index });
-const no: BitSource = { constant: false };
+const input = (bit: number): StimulusSource => ({ input: bit });
+const robot = (index: number): StimulusSource => ({ robot: index });
+const no: StimulusSource = { constant: false };
 
 test("the rows of a circuit without state are those of its gates, whatever the order of its robots", () => {
   const half: Given = {

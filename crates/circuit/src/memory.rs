@@ -3,14 +3,17 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
+use serde::Serialize;
+
 use crate::guarded::elements;
 use crate::loops::Loops;
 use crate::{NetId, Netlist, Node, Timing};
 
 /// The times of a memory element, in cycles. They hold for robots with delays between one cycle and their clock.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Memory {
-    pub nets: Vec<NetId>,
+    pub nets: Vec<String>,
     /// The length of the pulse that sets the element, at its input: the change passes every cell of the element once.
     pub pulse: u32,
     /// The time for which all other inputs must be stable before an input closes the element: the slowest path to it
@@ -32,7 +35,7 @@ impl Memory {
             let fast = entered.iter().filter_map(|net| fastest.get(net)).copied().min().unwrap_or(0);
             let pulse = nets.iter().map(|&net| clock(net)).sum();
             Self {
-                nets: nets.clone(),
+                nets: netlist.net_names(nets),
                 pulse,
                 setup: (slow + pulse).saturating_sub(fast),
                 hold: slow.saturating_sub(fast),

@@ -247,6 +247,10 @@ impl Netlist {
         }
     }
 
+    pub fn net_names(&self, nets: &[NetId]) -> Vec<String> {
+        nets.iter().map(|&net| self.net_name(net)).collect()
+    }
+
     pub fn is_named(&self, id: NetId) -> bool {
         !matches!(self.node(id), Node::Cell(Cell { name: None, .. }))
     }

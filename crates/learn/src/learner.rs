@@ -5,6 +5,7 @@ use std::ops::Range;
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
+use serde::Serialize;
 
 use crate::bits::Bits;
 use crate::code::{Classes, CodeFitting, CodeShape};
@@ -51,7 +52,8 @@ const TELLING: usize = 100;
 /// How much accuracy all permitted gates are worth: of two methods that are equally good, the smaller is taken.
 const PRICE: f64 = 0.002;
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Tried {
     pub method: String,
     /// The share of the choosing rows that it got right.
@@ -65,11 +67,14 @@ pub struct LearnedOutput {
     pub tried: Vec<Tried>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Accuracy {
     /// The rows in which every output is as wanted.
     pub right: usize,
     pub rows: usize,
+    /// Their share.
+    pub accuracy: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -95,7 +100,8 @@ impl LearnedCircuit {
     }
 
     pub fn accuracy(&self, rows: &Examples) -> Accuracy {
-        Accuracy { right: rows.right(&self.outputs_in(rows)).count(), rows: rows.rows }
+        let right = rows.right(&self.outputs_in(rows)).count();
+        Accuracy { right, rows: rows.rows, accuracy: right as f64 / rows.rows.max(1) as f64 }
     }
 }
 

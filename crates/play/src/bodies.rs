@@ -3,7 +3,7 @@
 use crate::history::FRAMES;
 use crate::jobs::{Job, JobEnd};
 use crate::message::{
-    CharacterSketch, EncodedGait, KeptRobot, PaletteEntry, ProbeReport, RequestResult, RobotCard, RobotCards, looks,
+    CharacterSketch, EncodedGait, KeptRobot, PaletteEntry, ProbeReport, RequestResult, RobotCard, RobotCards,
 };
 use crate::page_files::PageFiles;
 use crate::refusal::Refused;
@@ -39,7 +39,7 @@ pub(super) fn robots(session: &Session, checked: Option<&Checked>) -> Result<Rob
     let palettes = all.iter().map(|(robot, _)| robot.body.palette());
     let shown = Looks::of_palettes([&painted].into_iter().chain(palettes), SCHEME);
     let robots = all.iter().map(|(robot, shipped)| card(robot, *shipped, &shown, &painted)).collect();
-    Ok(RobotCards { robots, looks: looks(&shown), palette: palette(&shown, &painted) })
+    Ok(RobotCards { robots, looks: report::voxel_looks(&shown), palette: palette(&shown, &painted) })
 }
 
 fn card(robot: &Robot, shipped: bool, looks: &Looks, painted: &Palette) -> RobotCard {
@@ -108,7 +108,7 @@ pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> 
         character: sketched.as_ref().map(character),
         points: gaits[0].points,
         voxels: report::voxel_data(&gaits[0], &body, &shown),
-        looks: looks(&shown),
+        looks: report::voxel_looks(&shown),
     })))
 }
 

@@ -6,9 +6,8 @@ use std::sync::Arc;
 use crate::history::FRAMES;
 use crate::jobs::{Job, JobWork, PortionEnd};
 use crate::message::{
-    CircuitEntry, ClaimAnswer, ClaimEntry, PortEntry, ProgramReport, RequestResult, ShownSwarm, ShownWaves,
-    SwarmAnswer, SwarmRobot, TestAnswer, TestEntry, TestResult, TestRowEntry, WaveRegister, WrittenProgram, findings,
-    listed, looks,
+    CircuitEntry, ClaimEntry, ProgramReport, RequestResult, ShownSwarm, ShownWaves, SwarmAnswer, SwarmRobot,
+    TestAnswer, TestEntry, TestRowEntry, WaveRegister, WrittenProgram, listed,
 };
 use crate::refusal::Refused;
 use crate::runner::{LoadingSwarm, RunningSwarm};
@@ -24,8 +23,8 @@ use nbc_circuit::properties::SearchBudget;
 use nbc_circuit::waves::WaveMachine;
 use nbc_circuit::{Effort, NetId, Netlist};
 use nbc_session::report::{self, Looks};
-use nbc_session::{Checked, Choice, ClaimReport, CompileOptions, Compiled, Session, TestOptions};
-use nbc_swarm::{Assembly, Level, LiveSwarm, Recorded, StimulusSource, SwarmTrace};
+use nbc_session::{Checked, Choice, CompileOptions, Compiled, Session, TestOptions};
+use nbc_swarm::{Assembly, Level, LiveSwarm, Recorded, StimulusSource, SwarmTrace, TestVerdict};
 
 /// Circuits with more gates are mapped with little effort.
 const MANY_GATES: usize = 500;
@@ -44,7 +43,7 @@ pub(super) fn program(checked: &Checked) -> ProgramReport {
     });
     ProgramReport {
         errors: checked.diagnostics.iter().filter(|found| found.is_error()).count(),
-        diagnostics: findings(&checked.diagnostics, &checked.sources),
+        diagnostics: checked.findings(),
         circuits: circuits.collect(),
         tests: checked.program.tests.iter().enumerate().map(|(i, one)| test(i, one)).collect(),
         claims: checked.program.claims.iter().enumerate().map(|(i, one)| ClaimEntry::of(i, one)).collect(),
@@ -71,8 +70,8 @@ fn test(index: usize, test: &CircuitTest) -> TestEntry {
         title: test.title.clone(),
         line: test.line,
         ever: matches!(test.stimulation, Stimulation::Ever { .. }),
-        inputs: PortEntry::of(&test.inputs),
-        outputs: PortEntry::of(&test.outputs),
+        inputs: test.inputs.clone(),
+        outputs: test.outputs.clone(),
         extent,
         rows,
     }
@@ -135,9 +134,9 @@ pub(super) fn describe(number: u32, checked: &Checked, compiled: &Compiled, swar
         number,
         circuit: compiled.plan.circuit.to_string(),
         swarm: compiled.plan.swarm.clone(),
-        inputs: PortEntry::of(&assembly.inputs),
-        outputs: PortEntry::of(&assembly.outputs),
-        shown: assembly.shown.iter().copied().map(Into::into).collect(),
+        inputs: assembly.inputs.clone(),
+        outputs: assembly.outputs.clone(),
+        shown: assembly.shown.clone(),
         robots: trace
             .recording
             .robots
@@ -147,8 +146,8 @@ pub(super) fn describe(number: u32, checked: &Checked, compiled: &Compiled, swar
         gates: compiled.mapping.source.cells().count(),
         registers: state::registers(netlist),
         listing: source.and_then(|source| state::listing(checked, source, &assembly.outputs)),
-        looks: looks(&all),
-        schematic: compiled.schematic(SCHEME).pages().into(),
+        looks: report::voxel_looks(&all),
+        schematic: compiled.schematic(SCHEME).pages(),
         timing: timing.describe(),
         hold: compiled.timing.hold,
         clocks: state::clocks(&timing, &assembly.inputs),
@@ -204,7 +203,7 @@ fn robot(
         function: robot.function.name(),
         robot: robot.robot.clone(),
         about: report::about_robot(assembly, recorded.robot, &called),
-        senses: robot.senses.iter().map(|&source| source.into()).collect(),
+        senses: robot.senses.clone(),
         body: body.rows(),
         size: [body.width(), body.height()],
         voxels: report::voxel_data(recorded, body, looks),
@@ -241,8 +240,9 @@ pub(super) fn testing(
             return Ok(if cycles.waits() { PortionEnd::Waits } else { PortionEnd::More });
         }
         job.check()?;
-        let runs = running.take().expect("it runs").into_runs();
-        let results = runs.iter().map(|run| TestResult::from(&run.verdict)).collect();
+        let mut results: Vec<TestVerdict> =
+            running.take().expect("it runs").into_runs().into_iter().map(|run| run.verdict).collect();
+        results.iter_mut().for_each(|one| one.rows.truncate(listed(&one.inputs, &one.outputs)));
         Ok(PortionEnd::Done(Some(RequestResult::Test(TestAnswer { results }))))
     })
 }
@@ -265,6 +265,6 @@ pub(super) fn proving(
         }
         job.check()?;
         let decided = searching.take().expect("it searches").finish();
-        Ok(PortionEnd::Done(Some(RequestResult::Prove(ClaimAnswer::from(&ClaimReport::of(&decided))))))
+        Ok(PortionEnd::Done(Some(RequestResult::Prove(decided))))
     })
 }

@@ -1,11 +1,8 @@
 //! The reasons for which requests of a page are refused, and their messages.
 
 use serde::Serialize;
-#[cfg(test)]
-use ts_rs::TS;
 
-use crate::message::{Finding, findings};
-use nbc_base::diag::{Diagnostic, Diagnostics, io_words, visible};
+use nbc_base::diag::{Diagnostic, Diagnostics, Finding, io_words, visible};
 use nbc_base::model::Fault;
 use nbc_base::source::FileError;
 
@@ -43,7 +40,7 @@ pub(super) enum Refused {
 }
 
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(super) struct Refusal {
     message: String,
     help: Option<String>,
@@ -136,7 +133,7 @@ impl Refused {
 impl From<Refused> for Refusal {
     fn from(refused: Refused) -> Self {
         let diagnostics = match &refused {
-            Refused::Source(found) => findings(&found.list, &found.sources),
+            Refused::Source(found) => found.findings(),
             _ => Vec::new(),
         };
         let (message, help, code) = (refused.message(), refused.help(), refused.code());

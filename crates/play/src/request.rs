@@ -1,15 +1,13 @@
 //! The requests of a page; docs/play-protocol.md describes them.
 
 use serde::Deserialize;
-#[cfg(test)]
-use ts_rs::TS;
 
 use crate::message::ClassPlace;
 use crate::runner::Change;
 use nbc_swarm::Level;
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(super) struct Request {
     pub(super) id: u64,
     #[serde(flatten)]
@@ -17,16 +15,14 @@ pub(super) struct Request {
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(tag = "do", rename_all = "lowercase")]
 pub(super) enum Verb {
     Hello,
     Lessons,
     Files,
     Read {
-        #[cfg_attr(test, ts(optional))]
         path: Option<String>,
-        #[cfg_attr(test, ts(optional))]
         example: Option<String>,
     },
     Save {
@@ -46,7 +42,7 @@ pub(super) enum Verb {
     Test {
         path: String,
         test: ChosenTest,
-        level: TestLevel,
+        level: Level,
     },
     Prove {
         path: String,
@@ -56,7 +52,6 @@ pub(super) enum Verb {
         path: String,
         test: ChosenTest,
         swarm: Option<String>,
-        #[cfg_attr(test, ts(optional))]
         world: Option<String>,
         row: usize,
     },
@@ -87,7 +82,6 @@ pub(super) enum Verb {
     Probe {
         body: Vec<String>,
         cycles: u32,
-        #[cfg_attr(test, ts(optional))]
         character: Option<bool>,
     },
     Keep(KeepRequest),
@@ -106,7 +100,6 @@ pub(super) enum Verb {
     Join {
         name: String,
         // The key of the name, if this browser has had it before.
-        #[cfg_attr(test, ts(optional))]
         key: Option<String>,
     },
     Progress {
@@ -121,7 +114,7 @@ pub(super) enum Verb {
 
 /// A test by its number in the program, or the text of one that is not in it, such as one that refutes a property.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub(super) enum ChosenTest {
     Declared(usize),
@@ -138,27 +131,18 @@ impl ChosenTest {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[cfg_attr(test, derive(TS))]
-#[serde(rename_all = "lowercase")]
-pub(super) enum TestLevel {
-    Logic,
-    Physics,
-}
-
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(super) struct KeepRequest {
     /// The program that is to use it. Its robots are beside it.
     pub(super) path: Option<String>,
     pub(super) name: String,
     pub(super) body: Vec<String>,
-    #[cfg_attr(test, ts(optional))]
     pub(super) replace: Option<bool>,
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(super) struct EvolveRequest {
     /// The body to start from, if it is not a random one.
     pub(super) body: Option<Vec<String>>,
@@ -170,7 +154,7 @@ pub(super) struct EvolveRequest {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub(super) enum TakeKind {
     Page,
@@ -179,15 +163,6 @@ pub(super) enum TakeKind {
     Svg,
     Vcd,
     Csv,
-}
-
-impl From<TestLevel> for Level {
-    fn from(level: TestLevel) -> Self {
-        match level {
-            TestLevel::Logic => Self::Logic,
-            TestLevel::Physics => Self::Physics,
-        }
-    }
 }
 
 impl Verb {

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::message::{BitSource, ListingRow, ShownClock, ShownListing, ShownRegister, WaveBit, WaveRegister};
+use crate::message::{ListingRow, ShownClock, ShownListing, ShownRegister, WaveBit, WaveRegister};
 use nbc_base::model::{Circuit, Column, ExpressionKind, TablePattern};
 use nbc_circuit::waves::WaveMachine;
 use nbc_circuit::{BlockId, NetId, Netlist};
 use nbc_session::report::SwarmTiming;
 use nbc_session::{Checked, Mapping};
+use nbc_swarm::StimulusSource;
 
 /// A change has passed the slowest path before the clock has changed twice.
 pub(super) fn clocks(timing: &SwarmTiming, inputs: &[Column]) -> Vec<ShownClock> {
@@ -35,12 +36,12 @@ pub(super) fn wave_registers(mapping: &Mapping, machine: &WaveMachine) -> Vec<Wa
     let robots: BTreeMap<NetId, usize> = machine.netlist.cells().enumerate().map(|(at, (id, _))| (id, at)).collect();
     let bits = mapping.proof.cuts.iter().zip(&machine.state).filter_map(|(name, bit)| {
         let (source, phase) = match bit.net {
-            Err(value) => (BitSource::Constant(value), 0),
+            Err(value) => (StimulusSource::Constant(value), 0),
             Ok(net) => match robots.get(&net) {
-                Some(&robot) => (BitSource::Robot(robot), machine.phase[&net]),
+                Some(&robot) => (StimulusSource::Robot(robot), machine.phase[&net]),
                 None => {
                     let port = machine.netlist.inputs().iter().position(|input| *input == net)?;
-                    (BitSource::Input(port), machine.inputs[port]?)
+                    (StimulusSource::Input(port), machine.inputs[port]?)
                 }
             },
         };
@@ -194,9 +195,9 @@ mod tests {
         let bit = |bit: &WaveBit, thread: i64, step: usize| {
             let begins = (machine.beginning() + step as i64 * threads + thread) * beat;
             bit.starts.get(step).copied().unwrap_or_else(|| match bit.source {
-                BitSource::Robot(robot) => seen[(begins + bit.after) as usize][robot],
-                BitSource::Constant(value) => value,
-                BitSource::Input(_) => panic!("{bit:?}"),
+                StimulusSource::Robot(robot) => seen[(begins + bit.after) as usize][robot],
+                StimulusSource::Constant(value) => value,
+                StimulusSource::Input(_) => panic!("{bit:?}"),
             })
         };
         for thread in 0..threads {

@@ -11,7 +11,7 @@ use crate::class::Membership;
 use crate::evolving::SharedSearch;
 use crate::history::MEMORY;
 use crate::jobs::{Job, JobEnd, JobWork, Jobs, PortionEnd, once};
-use crate::message::{ClassName, Greeting, LessonList, PlayLimits, RequestResult, SwarmAnswer, TakenFile, findings};
+use crate::message::{ClassName, Greeting, LessonList, PlayLimits, RequestResult, SwarmAnswer, TakenFile};
 use crate::outbox::{Line, Outbox};
 use crate::page_files::{PageFiles, example, examples, is_circuit, program_around};
 use crate::refusal::Refused;
@@ -210,7 +210,7 @@ impl Visit {
                 let checker = self.checker.clone();
                 let (test, shown) = test.parts();
                 let open = move |job: &Job| checker.open_with(&path, shown.as_deref(), job);
-                programs::testing(self.fresh(), open, (test, level.into()), site.shell.clone())
+                programs::testing(self.fresh(), open, (test, level), site.shell.clone())
             }
             Verb::Prove { path, claim } => {
                 let checker = self.checker.clone();
@@ -225,7 +225,7 @@ impl Visit {
             }
             Verb::Lessons => once(move |_| {
                 let read = lessons::load(site.shell.lessons(), Some(&site.folder.world()));
-                let findings = findings(&read.found.list, &read.found.sources);
+                let findings = read.found.findings();
                 Ok(Some(RequestResult::Lessons(LessonList { lessons: read.lessons, findings })))
             }),
             Verb::Probe { body, cycles, character } => {

@@ -13,7 +13,7 @@ use crate::heatmap::{heat, share};
 use crate::html::{Html, base64, controls, escape, picture};
 use crate::listing::walked;
 use crate::looks::Looks;
-use crate::page_bodies::{look_data, materials, voxel_data};
+use crate::page_bodies::{materials, voxel_data, voxel_looks};
 use crate::stage::Stage;
 use crate::svg::Svg;
 use nbc_base::diag::counted;
@@ -169,7 +169,7 @@ fn data(results: &EvolutionResults, entries: &[Entry<'_>], gaits: &[Recorded], p
     let digits = |spell: &Spell| spell.pattern.digits(results.stimuli);
     let patterns: Vec<String> = results.shown(GAIT_CYCLES).spells.iter().map(digits).collect();
     json!({
-        "looks": look_data(looks),
+        "looks": voxel_looks(looks),
         "images": results.images.iter().map(|image| Vec::from(Image::clone(image))).collect::<Vec<_>>(),
         "patterns": patterns,
         "cycles": GAIT_CYCLES,

@@ -1,22 +1,34 @@
 //! Bodies on pages: their voxels, the appearance of these, and their materials.
 
+use serde::Serialize;
 use serde_json::{Value, json};
 
+use crate::element::Point;
 use crate::looks::{Look, Looks, material_words};
 use nbc_base::diag::counted;
 use nbc_base::model::{Body, Material};
 use nbc_swarm::{Assembly, Member, Recorded, StimulusSource};
 
-pub fn look_data(looks: &Looks) -> Vec<Value> {
-    let data = |(material, Look { color, mark }): (&Material, Look)| {
-        let mut data = json!({ "name": material.name, "color": color.to_string() });
-        if let Some(mark) = mark {
-            data["ink"] = json!(mark.ink.to_string());
-            data["mark"] = json!(mark.polygons);
-        }
-        data
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct VoxelLook {
+    pub name: String,
+    pub color: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ink: Option<String>,
+    /// Polygons within the unit square.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mark: Option<&'static [&'static [Point]]>,
+}
+
+pub fn voxel_looks(looks: &Looks) -> Vec<VoxelLook> {
+    let look = |(material, Look { color, mark }): (&Material, Look)| VoxelLook {
+        name: material.name.clone(),
+        color: color.to_string(),
+        ink: mark.map(|mark| mark.ink.to_string()),
+        mark: mark.map(|mark| mark.polygons),
     };
-    looks.all().map(data).collect()
+    looks.all().map(look).collect()
 }
 
 /// Each voxel of a recorded body: its points from the top left around it, and the place of its look.

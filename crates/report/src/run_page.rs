@@ -6,7 +6,7 @@ use serde_json::{Value as Json, json};
 use crate::color::Scheme;
 use crate::html::{Html, base64, controls, escape, picture};
 use crate::looks::Looks;
-use crate::page_bodies::{cell_data, look_data, voxel_data};
+use crate::page_bodies::{cell_data, voxel_data, voxel_looks};
 use crate::schematic::SchematicPages;
 use crate::schematic::explorer;
 use crate::svg::Svg;
@@ -38,7 +38,7 @@ pub fn draw_run_page(source: &str, swarms: &[PageSwarm<'_>], scheme: Scheme) -> 
     let (tests, simulations): (Vec<SwarmOutcome<'_>>, Vec<SwarmOutcome<'_>>) =
         swarms.iter().map(|swarm| swarm.outcome).partition(|outcome| matches!(outcome, SwarmOutcome::Test(_)));
     let data = json!({
-        "looks": look_data(&looks),
+        "looks": voxel_looks(&looks),
         "swarms": swarms.iter().map(|swarm| swarm_data(swarm, &looks)).collect::<Vec<_>>(),
     });
     Html {

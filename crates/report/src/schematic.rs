@@ -31,6 +31,7 @@ pub struct Schematic<'a> {
 }
 
 #[derive(Clone, Debug, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SchematicPages {
     pub sheets: Vec<SheetPage>,
     /// The bodies of the robots, as SVG. A group `body-K` of a sheet is the place of body `K`.
@@ -40,6 +41,7 @@ pub struct SchematicPages {
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SheetPage {
     pub name: String,
     /// More about it, such as `adder, 37 robots`.

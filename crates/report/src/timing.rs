@@ -23,7 +23,7 @@ pub struct SwarmTiming {
     /// The nets of rings of inverters, which keep changing.
     pub rings: Vec<String>,
     pub robots: Vec<RobotTiming>,
-    pub memory: Vec<MemoryTimes>,
+    pub memory: Vec<Memory>,
     pub phases: PhaseTiming,
     /// The steps and phases of a wave machine.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -53,18 +53,6 @@ pub struct RobotTiming {
     pub fan_out: usize,
 }
 
-#[derive(Clone, Debug, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct MemoryTimes {
-    pub nets: Vec<String>,
-    /// The length of the pulse that sets it, in cycles.
-    pub pulse: u32,
-    /// Cycles for which its inputs must be at rest before it closes.
-    pub setup: u32,
-    /// Cycles for which they must stay at rest afterwards.
-    pub hold: u32,
-}
-
 impl SwarmTiming {
     pub fn of(mapped: &Netlist, timing: &Timing, assembly: &Assembly, phases: PhaseTiming) -> Self {
         let players: BTreeMap<NetId, &Member> = mapped.cells().map(|(id, _)| id).zip(&assembly.members).collect();
@@ -87,9 +75,9 @@ impl SwarmTiming {
         Self {
             hold: timing.hold,
             critical_path: timing.critical_path.iter().map(step).collect(),
-            rings: rings(mapped).into_iter().map(|net| mapped.net_name(net)).collect(),
+            rings: mapped.net_names(&rings(mapped)),
             robots: players.iter().map(robot).collect(),
-            memory: MemoryTimes::all(mapped, timing, clock),
+            memory: Memory::all(mapped, timing, clock),
             phases,
             waves: None,
         }
@@ -123,27 +111,17 @@ impl SwarmTiming {
             None => describe_settling(self.hold, &path, &self.rings),
         };
         text += &self.phases.describe();
-        text.extend(self.memory.iter().map(MemoryTimes::describe));
+        text += &describe_memory(&self.memory);
         text + &describe_fan_out(self.robots.iter().map(|robot| (robot.net.clone(), robot.fan_out)))
     }
 }
 
-impl MemoryTimes {
-    pub fn all(mapped: &Netlist, timing: &Timing, clock: impl Fn(NetId) -> u32) -> Vec<Self> {
-        let times = |Memory { nets, pulse, setup, hold }| Self {
-            nets: nets.into_iter().map(|net| mapped.net_name(net)).collect(),
-            pulse,
-            setup,
-            hold,
-        };
-        Memory::all(mapped, timing, clock).into_iter().map(times).collect()
-    }
-
-    pub fn describe(&self) -> String {
-        let Self { nets, pulse, setup, hold } = self;
+pub fn describe_memory(memory: &[Memory]) -> String {
+    let line = |Memory { nets, pulse, setup, hold }: &Memory| {
         let hold = counted(*hold as usize, "cycle");
         format!("memory   {}: pulse {pulse}, set-up {setup}, hold {hold}\n", nets.join(" "))
-    }
+    };
+    memory.iter().map(line).collect()
 }
 
 /// The hold and the slowest path, input first, as a line for people; for a netlist with rings, which never settles,

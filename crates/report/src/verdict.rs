@@ -271,6 +271,7 @@ mod tests {
             weak_robots: Vec::new(),
             printed: None,
             proof: None,
+            fault: None,
             rows_from: None,
             rows: vec![RowVerdict {
                 row: 2,

@@ -1,7 +1,7 @@
 //! A parsed and checked source.
 
 use crate::contents;
-use nbc_base::diag::{Diagnostic, DiagnosticReport, Diagnostics, json};
+use nbc_base::diag::{Diagnostic, Diagnostics, Finding, findings};
 use nbc_base::model::{Instance, Program};
 use nbc_base::source::{FileId, ForeignCircuit, MemoryWorld, SourceWorld, Sources, Span};
 use nbc_circuit::{NetWidths, elaborate};
@@ -81,8 +81,8 @@ impl Checked {
         Diagnostics { list, sources: self.sources.clone() }
     }
 
-    pub fn json(&self) -> Vec<DiagnosticReport> {
-        json(&self.diagnostics, &self.sources)
+    pub fn findings(&self) -> Vec<Finding> {
+        findings(&self.diagnostics, &self.sources)
     }
 
     pub(super) fn place(&self, circuit: &Instance) -> Span {

@@ -1,5 +1,7 @@
 //! Claims of a program, decided: a search in portions, and the rows of a test that show what refutes a property.
 
+use crate::decided_claim::{DecidedClaim, text_of_test};
+use crate::decided_property::DecidedProperty;
 use crate::observer::Observer;
 use crate::run_rows::RunPorts;
 use crate::wording;
@@ -8,7 +10,7 @@ use nbc_base::model::{Base, CircuitId, CircuitTest, Claim, Program, Property, Pr
 use nbc_base::source::Span;
 use nbc_circuit::elaborate::elaborate_environment;
 use nbc_circuit::properties::{
-    EmptyProof, EnvironmentStep, Monitored, PropertySearch, PropertyVerdict, SearchBudget, SystemRun, TransitionSystem,
+    EmptyProof, EnvironmentStep, Monitored, PropertySearch, PropertyVerdict, SearchBudget, SystemRun,
 };
 use nbc_circuit::{CancelFlag, Logic, Netlist, elaborate_reference, elaborate_watched};
 
@@ -19,27 +21,6 @@ pub struct ClaimSearch {
     ports: RunPorts,
     circuit: Netlist,
     monitor: Netlist,
-}
-
-/// A claim with a verdict on each of its properties except assumptions.
-#[derive(Clone, Debug)]
-pub struct DecidedClaim {
-    pub claim: Claim,
-    pub system: TransitionSystem,
-    pub verdicts: Vec<PropertyVerdict>,
-    /// Why a proof is vacuous.
-    pub empty: Vec<Option<EmptyProof>>,
-    /// For each refuted property, a test whose last row shows it. The circuit passes the test.
-    pub tests: Vec<Option<CircuitTest>>,
-    /// The work, as [`SearchBudget`] counts it.
-    pub work: u64,
-}
-
-impl DecidedClaim {
-    /// The tests that refute properties, with the numbers of these.
-    pub fn refuted(&self) -> impl Iterator<Item = (usize, &CircuitTest)> {
-        self.tests.iter().enumerate().filter_map(|(property, test)| Some((property, test.as_ref()?)))
-    }
 }
 
 impl ClaimSearch {
@@ -73,16 +54,29 @@ impl ClaimSearch {
 
     /// Panics if the circuit contradicts the search, which is a fault of the search.
     pub fn finish(self) -> DecidedClaim {
-        let verdicts = self.search.verdicts();
-        let properties: Vec<Property> = self.claim.wanted().cloned().collect();
-        let shown = |(property, verdict): (&Property, &PropertyVerdict)| match verdict {
-            PropertyVerdict::Refuted(run) => Some(self.test(property, run)),
-            PropertyVerdict::Proved(_) | PropertyVerdict::Undecided { .. } => None,
+        let Claim { file, line, circuit, title, properties, .. } = &self.claim;
+        let decided = |(number, (property, verdict)): (usize, (&Property, PropertyVerdict))| {
+            let empty = self.search.empty_proof(number).map(|why| why_empty(why, property, properties));
+            let shown = match &verdict {
+                PropertyVerdict::Refuted(run) => Some(self.test(property, run)),
+                PropertyVerdict::Proved(_) | PropertyVerdict::Undecided { .. } => None,
+            };
+            DecidedProperty {
+                line: Some(property.line),
+                test: shown.as_ref().map(text_of_test),
+                shown,
+                ..DecidedProperty::of((self.search.system(), number), property.text.clone(), &verdict, empty)
+            }
         };
-        let tests = properties.iter().zip(&verdicts).map(shown).collect();
-        let empty = (0..verdicts.len()).map(|property| self.search.empty_proof(property)).collect();
-        let (system, work) = (self.search.system().clone(), self.search.work());
-        DecidedClaim { claim: self.claim, system, verdicts, empty, tests, work }
+        let decided = self.claim.wanted().zip(self.search.verdicts()).enumerate().map(decided).collect();
+        DecidedClaim {
+            file: file.clone(),
+            line: Some(*line),
+            circuit: Some(circuit.to_string()),
+            title: Some(title.clone()).filter(|title| !title.is_empty()),
+            properties: decided,
+            work: self.search.work(),
+        }
     }
 
     fn test(&self, property: &Property, run: &SystemRun) -> CircuitTest {
@@ -103,6 +97,16 @@ impl ClaimSearch {
         let (title, stimulation) = (property.text.clone(), Stimulation::Rows(rows));
         let (rows_from, worlds) = (None, Vec::new());
         CircuitTest { circuit, title, span, file, line, inputs, outputs, stimulation, rows_from, worlds }
+    }
+}
+
+fn why_empty(why: EmptyProof, property: &Property, all: &[Property]) -> String {
+    let is_assumed = all.iter().any(|other| other.kind == PropertyKind::Assume);
+    let under = if is_assumed { " under the assumptions" } else { "" };
+    match why {
+        EmptyProof::NoStep => "no step satisfies the assumptions".to_owned(),
+        EmptyProof::NeverChecked if property.has_condition => format!("its condition is never true{under}"),
+        EmptyProof::NeverChecked => format!("no run is long enough{under}"),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Tests against another circuit for ever: a search decides whether an output ever differs.
 
-use crate::property_report::PropertyReport;
+use crate::decided_property::DecidedProperty;
 use crate::run_rows::RunPorts;
 use crate::wording;
 use nbc_base::diag::Diagnostic;
@@ -46,7 +46,7 @@ impl Equivalence {
     /// search.
     pub(super) fn judge(&self, test: &CircuitTest, search: &PropertySearch) -> (String, bool, Vec<RowVerdict>) {
         let verdict = search.verdicts().remove(0);
-        let known = PropertyReport::of(&self.system, 0, String::new(), &verdict);
+        let known = DecidedProperty::of((&self.system, 0), String::new(), &verdict, None);
         let rows = match &verdict {
             PropertyVerdict::Refuted(run) => {
                 let bases: Vec<Base> = test.inputs.iter().chain(&test.outputs).map(Base::of_port).collect();
@@ -60,8 +60,8 @@ impl Equivalence {
             PropertyVerdict::Proved(_) | PropertyVerdict::Undecided { .. } => Vec::new(),
         };
         let how = match verdict {
-            PropertyVerdict::Undecided { .. } => format!("undecided, {}", known.how()),
-            _ => format!("{} {}", known.verdict, known.how()),
+            PropertyVerdict::Undecided { .. } => format!("undecided, {}", known.how),
+            _ => format!("{} {}", known.verdict, known.how),
         };
         (how, matches!(verdict, PropertyVerdict::Proved(_)), rows)
     }

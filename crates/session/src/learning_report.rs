@@ -10,7 +10,7 @@ use crate::wording;
 use nbc_base::diag::{Diagnostic, counted};
 use nbc_base::model::Column;
 use nbc_circuit::levels;
-use nbc_learn::{Accuracy, Bits, Examples};
+use nbc_learn::{Accuracy, Bits, Examples, Tried};
 
 /// What was learned.
 #[derive(Debug, Serialize)]
@@ -23,25 +23,15 @@ pub struct LearningReport {
     ands: usize,
     cells: usize,
     depth: u32,
-    /// The rows that the circuit was learned from.
-    training: AccuracyReport,
+    training: Accuracy,
     /// `None` if no row was held out.
     #[serde(skip_serializing_if = "Option::is_none")]
-    held_out: Option<AccuracyReport>,
+    held_out: Option<Accuracy>,
     bits: Vec<BitReport>,
     /// Of a circuit with one output of few values.
     #[serde(skip_serializing_if = "Option::is_none")]
     confusion: Option<Confusion>,
     seconds: f64,
-}
-
-#[derive(Clone, Copy, Debug, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct AccuracyReport {
-    right: usize,
-    rows: usize,
-    /// The share of the rows in which every output is correct.
-    accuracy: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -50,16 +40,7 @@ struct BitReport {
     name: String,
     /// What the bit is, in words.
     learned: String,
-    /// The methods that were tried, with their accuracy in rows that they had not seen.
-    tried: Vec<TriedReport>,
-}
-
-#[derive(Debug, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct TriedReport {
-    method: String,
-    accuracy: f64,
-    ands: usize,
+    tried: Vec<Tried>,
 }
 
 impl LearningReport {
@@ -69,9 +50,9 @@ impl LearningReport {
         let bit = |(name, output): (String, &nbc_learn::LearnedOutput)| BitReport {
             name,
             learned: output.what.clone(),
-            tried: output.tried.iter().map(TriedReport::of).collect(),
+            tried: output.tried.clone(),
         };
-        let held_out = AccuracyReport::of(circuit.accuracy(&circuit.held_out));
+        let held_out = circuit.accuracy(&circuit.held_out);
         Self {
             circuit: design.logic.name.clone(),
             inputs: inputs.clone(),
@@ -79,7 +60,7 @@ impl LearningReport {
             ands: circuit.ands(),
             cells: design.logic.cells().count(),
             depth: levels::depth(&design.logic),
-            training: AccuracyReport::of(circuit.accuracy(&circuit.training)),
+            training: circuit.accuracy(&circuit.training),
             held_out: Some(held_out).filter(|held_out| held_out.rows > 0),
             bits: names.zip(&circuit.outputs).map(bit).collect(),
             confusion: confusion(learned),
@@ -93,8 +74,8 @@ impl LearningReport {
         let mut text = format!("{}: {inputs}, {outputs}\n", self.circuit);
         let gates = counted(self.ands, "AND gate");
         let _ = writeln!(text, "{gates} ({}), {}", counted(self.cells, "cell"), counted(self.depth as usize, "level"));
-        let mut share = |what: &str, rows: &AccuracyReport| {
-            let AccuracyReport { right, rows, accuracy } = rows;
+        let mut share = |what: &str, rows: &Accuracy| {
+            let Accuracy { right, rows, accuracy } = rows;
             let _ = writeln!(text, "{what}: {:.2} % ({right} of {})", accuracy * 100.0, counted(*rows, "row"));
         };
         share("training", &self.training);
@@ -116,25 +97,13 @@ impl LearningReport {
 
     /// The comment in the file of the circuit, which `command` made.
     pub fn provenance(&self, command: &str) -> Vec<String> {
-        let rows = |what: &str, rows: &AccuracyReport| format!("{} of {} {what} right", rows.right, rows.rows);
+        let rows = |what: &str, rows: &Accuracy| format!("{} of {} {what} right", rows.right, rows.rows);
         let held_out =
             self.held_out.as_ref().map(|held_out| format!("; {}", rows("rows that were held out", held_out)));
         vec![
             format!("Learned by nbc {}: {command}", nbc_base::VERSION),
             format!("{}{}", rows("training rows", &self.training), held_out.unwrap_or_default()),
         ]
-    }
-}
-
-impl AccuracyReport {
-    fn of(Accuracy { right, rows }: Accuracy) -> Self {
-        Self { right, rows, accuracy: right as f64 / rows.max(1) as f64 }
-    }
-}
-
-impl TriedReport {
-    fn of(tried: &nbc_learn::Tried) -> Self {
-        Self { method: tried.method.clone(), accuracy: tried.accuracy, ands: tried.ands }
     }
 }
 

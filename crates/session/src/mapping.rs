@@ -1,8 +1,8 @@
 //! A circuit as cells of a library.
 
-use nbc_circuit::timing::{Delays, Held, WhyKept};
+use nbc_circuit::timing::{Delays, Held, KeptLatch};
 use nbc_circuit::waves::WaveMachine;
-use nbc_circuit::{CellLibrary, NetId, Netlist, Proof, Timing, prove_forms};
+use nbc_circuit::{CellLibrary, Netlist, Proof, Timing, prove_forms};
 
 #[derive(Clone, Debug)]
 pub struct Mapping {
@@ -12,8 +12,8 @@ pub struct Mapping {
     /// Proves that both netlists are equal, before registers change their form, which has a proof of its own. For a
     /// wave machine, proves its steps.
     pub proof: Proof,
-    /// A net of each memory element that should have become a latch of one robot and has not.
-    pub kept: Vec<(NetId, WhyKept)>,
+    /// The memory elements that should have become latches of one robot and have not.
+    pub kept: Vec<KeptLatch>,
     /// No proof was found that registers of another form store the same, because latches are not recognized.
     pub unproved_registers: bool,
     pub waves: Option<WaveMachine>,

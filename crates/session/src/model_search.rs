@@ -1,9 +1,10 @@
 //! Models of other tools, decided.
 
-use crate::claim_report::ClaimReport;
+use crate::decided_claim::DecidedClaim;
+use crate::decided_property::DecidedProperty;
 use nbc_circuit::CancelFlag;
 use nbc_circuit::formats::AigerModel;
-use nbc_circuit::properties::{PropertySearch, SearchBudget};
+use nbc_circuit::properties::{PropertySearch, PropertyVerdict, SearchBudget};
 
 pub struct ModelSearch {
     file: String,
@@ -23,7 +24,14 @@ impl ModelSearch {
         &mut self.search
     }
 
-    pub fn finish(self) -> ClaimReport {
-        ClaimReport::of_model(&self.file, &self.model, &self.search)
+    pub fn finish(self) -> DecidedClaim {
+        let Self { file, model, search } = self;
+        let decided = |(number, (name, verdict)): (usize, (&String, PropertyVerdict))| {
+            let empty = search.empty_proof(number).map(|_| "no step satisfies the constraints".to_owned());
+            let witness = Some(model.witness(number, &verdict));
+            DecidedProperty { witness, ..DecidedProperty::of((&model.system, number), name.clone(), &verdict, empty) }
+        };
+        let properties = model.properties.iter().zip(search.verdicts()).enumerate().map(decided).collect();
+        DecidedClaim { file, line: None, circuit: None, title: None, properties, work: search.work() }
     }
 }

@@ -33,6 +33,7 @@ pub(super) fn verdict(
     compiled: Option<&Compiled>,
     rows: Vec<RowVerdict>,
 ) -> TestVerdict {
+    let fault = rows.iter().find_map(|row| row.fault.as_ref()).map(ToString::to_string);
     TestVerdict {
         file: test.file.clone(),
         line: test.line,
@@ -50,6 +51,7 @@ pub(super) fn verdict(
         rows,
         printed: None,
         proof: None,
+        fault,
     }
 }
 

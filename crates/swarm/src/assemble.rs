@@ -13,6 +13,7 @@ use nbc_sim::{Flock, Simulator};
 
 /// The source of a stimulus or of an output port's bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum StimulusSource {
     /// A bit of the input ports, by its place among their bits.

@@ -1,11 +1,11 @@
 //! The verdict of a test as plain data for text, JSON and pages, at the level of logic and in physics.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::{RobotFault, WeakRobot};
 use nbc_base::model::{Column, RowSource, Value};
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Level {
@@ -54,6 +54,9 @@ pub struct TestVerdict {
     /// How a test for ever was decided, in words: `proved by induction over 1 step`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proof: Option<String>,
+    /// How a robot failed, in words: `robot nand_5x5 on net q became unstable in cycle 3`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fault: Option<String>,
 }
 
 impl TestVerdict {

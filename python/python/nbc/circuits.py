@@ -560,9 +560,9 @@ class Compiled:
         """The circuit's name."""
         self.swarm_name: Optional[str] = summary["swarm"]
         """The declared swarm, if there is one."""
-        self.inputs: Tuple[Port, ...] = tuple(Port(**port) for port in summary["inputs"])
+        self.inputs: Tuple[Port, ...] = tuple(Port(port["name"], port["width"]) for port in summary["inputs"])
         """The input ports."""
-        self.outputs: Tuple[Port, ...] = tuple(Port(**port) for port in summary["outputs"])
+        self.outputs: Tuple[Port, ...] = tuple(Port(port["name"], port["width"]) for port in summary["outputs"])
         """The output ports."""
         self.robots: Tuple[Mapping[str, Any], ...] = tuple(summary["robots"])
         """The robots: the net that each drives, its name, function, behavior, body and materials."""

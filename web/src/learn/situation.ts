@@ -3,7 +3,7 @@
 import type { LiveSwarm } from "../live/swarm";
 import type { Program } from "../program";
 import { toNumber } from "../ports";
-import type { PortEntry, WrittenProgram } from "../protocol";
+import type { Column, WrittenProgram } from "../protocol";
 import type { Design } from "../robots/designer";
 import type { Search } from "../robots/evolution";
 import type { ClaimState } from "../tests/claims";
@@ -100,7 +100,7 @@ function portValue(swarm: LiveSwarm, name: string, cycle: number): number | null
   return valueAmong(definition.inputs, logged.inputs, name) ?? valueAmong(definition.outputs, logged.outputs, name);
 }
 
-function valueAmong(ports: PortEntry[], bits: Uint8Array, name: string): number | null {
+function valueAmong(ports: Column[], bits: Uint8Array, name: string): number | null {
   let start = 0;
   for (const port of ports) {
     if (port.name === name) {

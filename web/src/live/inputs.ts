@@ -2,7 +2,7 @@
 
 import { element, fill, iconButton } from "../element";
 import { bitsOf, offsetOf, toBits, toNumber, type PortBit } from "../ports";
-import type { PortEntry } from "../protocol";
+import type { Column } from "../protocol";
 import type { View } from "./animation";
 import { numberFormat, numberText, typedNumber } from "./numbers";
 import { pictureInput, pictureSide } from "./picture_input";
@@ -59,7 +59,7 @@ export class InputPanel implements View {
     }
   }
 
-  #port(port: PortEntry, bits: PortBit[]): HTMLElement {
+  #port(port: Column, bits: PortBit[]): HTMLElement {
     const [first] = bits;
     if (first !== undefined && first.index === this.swarm.definition.value?.waves?.clock) {
       return waveClock(first);
@@ -77,7 +77,7 @@ export class InputPanel implements View {
     return element("div", { class: "bus" }, this.#number(port), element("div", { class: "bits" }, ...switches));
   }
 
-  #picture(port: PortEntry, bits: PortBit[]): HTMLElement {
+  #picture(port: Column, bits: PortBit[]): HTMLElement {
     const shown = (index: number) => this.#shown(index);
     const { host, update } = pictureInput(port, bits, shown, (index, bit) => this.swarm.setBit(index, bit));
     this.#updates.push(update);
@@ -127,7 +127,7 @@ export class InputPanel implements View {
   }
 
   /** The members of an enumeration, to pick one. A value that is none of them is shown as a number. */
-  #choice(port: PortEntry, members: [string, string][]): HTMLElement {
+  #choice(port: Column, members: [string, string][]): HTMLElement {
     const start = offsetOf(this.swarm.definition.value?.inputs ?? [], port);
     const other = element("option", { value: "", hidden: true });
     const field = element(
@@ -153,7 +153,7 @@ export class InputPanel implements View {
     return element("label", { class: "number" }, element("span", { class: "name" }, port.name), field);
   }
 
-  #number(port: PortEntry): HTMLElement {
+  #number(port: Column): HTMLElement {
     const start = offsetOf(this.swarm.definition.value?.inputs ?? [], port);
     const field = element("input", {
       type: "text",
@@ -188,11 +188,11 @@ export class InputPanel implements View {
     );
   }
 
-  #current(port: PortEntry, start: number): bigint {
+  #current(port: Column, start: number): bigint {
     return toNumber([...this.swarm.inputs.value.slice(start, start + port.width)].map(Number));
   }
 
-  #type(field: HTMLInputElement, port: PortEntry, start: number): void {
+  #type(field: HTMLInputElement, port: Column, start: number): void {
     const value = typedNumber(field.value, port);
     field.setAttribute("aria-invalid", String(value === null));
     if (value !== null) {
@@ -202,7 +202,7 @@ export class InputPanel implements View {
   }
 
   /** Past the ends it goes round. */
-  #add(port: PortEntry, start: number, step: bigint): void {
+  #add(port: Column, start: number, step: bigint): void {
     const size = 1n << BigInt(port.width);
     this.#set(port, start, (this.#current(port, start) + step + size) % size);
     const field = this.host.querySelector<HTMLInputElement>(`input[data-input="${port.name}"]`);
@@ -211,7 +211,7 @@ export class InputPanel implements View {
     }
   }
 
-  #set(port: PortEntry, start: number, value: bigint): void {
+  #set(port: Column, start: number, value: bigint): void {
     const bits = this.swarm.inputs.value;
     this.swarm.setInputs(bits.slice(0, start) + toBits(value, port.width).join("") + bits.slice(start + port.width));
   }

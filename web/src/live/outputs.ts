@@ -2,7 +2,7 @@
 
 import { element, fill } from "../element";
 import { offsetOf, toNumber } from "../ports";
-import type { BitSource, PortEntry, ShownSwarm } from "../protocol";
+import type { StimulusSource, Column, ShownSwarm } from "../protocol";
 import type { View } from "./animation";
 import { FORMATS, numberFormat, numberText, type NumberFormat } from "./numbers";
 import type { LiveSwarm } from "./swarm";
@@ -76,7 +76,7 @@ export class OutputPanel implements View {
     return text;
   }
 
-  #port(port: PortEntry, sources: BitSource[]): HTMLElement {
+  #port(port: Column, sources: StimulusSource[]): HTMLElement {
     const lamps = sources.map((source, i) =>
       this.#lamp(source, port.width === 1 ? port.name : `${port.name}[${port.width - 1 - i}]`),
     );
@@ -101,7 +101,7 @@ export class OutputPanel implements View {
     );
   }
 
-  #lamp(source: BitSource, name: string): HTMLElement {
+  #lamp(source: StimulusSource, name: string): HTMLElement {
     const lamp = element("span", {
       class: "lamp",
       role: "img",

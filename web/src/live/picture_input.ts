@@ -2,14 +2,14 @@
 
 import { element } from "../element";
 import type { PortBit } from "../ports";
-import type { PortEntry } from "../protocol";
+import type { Column } from "../protocol";
 
 /** The fewest bits on a side of a picture: narrower buses are numbers. */
 const LEAST = 7;
 const MOST = 32;
 
 /** The pixels on a side if the bus may be a picture, else 0. */
-export function pictureSide({ width }: PortEntry): number {
+export function pictureSide({ width }: Column): number {
   const side = Math.sqrt(width);
   return Number.isInteger(side) && side >= LEAST && side <= MOST ? side : 0;
 }
@@ -24,7 +24,7 @@ export interface PictureInput {
  * space bar changes it.
  */
 export function pictureInput(
-  port: PortEntry,
+  port: Column,
   bits: PortBit[],
   shown: (index: number) => number,
   set: (index: number, bit: number) => void,

@@ -1,7 +1,7 @@
 // The rows of the waveform: inputs, outputs, registers by name, and the robots if they are asked for.
 
 import { offsetOf } from "../ports";
-import type { BitSource, PortEntry, ShownSwarm } from "../protocol";
+import type { StimulusSource, Column, ShownSwarm } from "../protocol";
 import { sameSource } from "../selection";
 import type { Valued } from "./numbers";
 
@@ -9,7 +9,7 @@ export interface WaveRow {
   name: string;
   group: "input" | "output" | "register" | "robot";
   /** The most significant bit first; more than one is a bus. */
-  sources: BitSource[];
+  sources: StimulusSource[];
   valued: Valued;
 }
 
@@ -20,15 +20,15 @@ export interface Wanted {
 }
 
 export function waveRows(swarm: ShownSwarm, { opened, robots }: Wanted): WaveRow[] {
-  const ports = (ports: PortEntry[], group: WaveRow["group"], source: (bit: number) => BitSource): WaveRow[] =>
+  const ports = (ports: Column[], group: WaveRow["group"], source: (bit: number) => StimulusSource): WaveRow[] =>
     ports.map(port => {
       const start = offsetOf(ports, port);
       const sources = Array.from({ length: port.width }, (_, i) => source(start + i));
       return { name: port.name, group, sources, valued: port };
     });
-  const shown = (bit: number): BitSource => swarm.shown[bit] ?? { constant: false };
+  const shown = (bit: number): StimulusSource => swarm.shown[bit] ?? { constant: false };
   const outputs = ports(swarm.outputs, "output", shown);
-  const isSame = (a: BitSource[], b: BitSource[]): boolean =>
+  const isSame = (a: StimulusSource[], b: StimulusSource[]): boolean =>
     a.length === b.length && a.every((source, i) => sameSource(source, b[i] ?? null));
   const isOpen = (robot: number): boolean => opened === null || opened.includes(robot);
   const registers = swarm.registers

@@ -2,7 +2,7 @@
 // comes near a part opens it, and who goes far from it sees again what is around it.
 
 import { button, element, fill, iconButton } from "../element";
-import type { BitSource, ShownSchematic } from "../protocol";
+import type { StimulusSource, SchematicPages } from "../protocol";
 import { sameSource } from "../selection";
 import type { LiveSwarm } from "./swarm";
 import type { View } from "./animation";
@@ -14,7 +14,7 @@ import { threadColor } from "./waves";
 
 interface Marked {
   element: Element;
-  source: BitSource;
+  source: StimulusSource;
   shown: number | null | undefined;
   /** What shows the number of the thread, and which is shown. */
   number: Element | null;
@@ -41,7 +41,7 @@ export class Schematic implements View {
   ];
   /** The sheets from the whole to the one that is shown. */
   readonly crumbs = element("nav", { class: "crumbs", "aria-label": "Part of the circuit" });
-  #schematic: ShownSchematic = { sheets: [], bodies: [], homes: [] };
+  #schematic: SchematicPages = { sheets: [], bodies: [], homes: [] };
   #sheet = 0;
   #svg: SVGSVGElement | null = null;
   /** The robots, of which one is reached by the tab key. */
@@ -187,7 +187,7 @@ export class Schematic implements View {
     }
   }
 
-  #sourceOf(target: EventTarget | null): BitSource | null {
+  #sourceOf(target: EventTarget | null): StimulusSource | null {
     // Not by the nearest name: a body within a robot's box has one of its own.
     const found = target instanceof Node ? this.#marked.find(({ element }) => element.contains(target)) : undefined;
     return found?.source ?? null;

@@ -1,10 +1,10 @@
 // Parts of the schematic's drawing that are added or hidden after it has come.
 
-import type { ShownSchematic, ShownSheet } from "../protocol";
+import type { SchematicPages, SheetPage } from "../protocol";
 import type { Box } from "./viewport";
 
 /** The drawing of the whole with the bodies of its robots, as a file. */
-export function wholeOf({ sheets, bodies }: ShownSchematic): string {
+export function wholeOf({ sheets, bodies }: SchematicPages): string {
   const svg = new DOMParser().parseFromString(sheets[0]?.svg ?? "", "image/svg+xml");
   if (svg.documentElement instanceof SVGSVGElement) {
     placeBodies(svg.documentElement, bodies);
@@ -13,12 +13,12 @@ export function wholeOf({ sheets, bodies }: ShownSchematic): string {
 }
 
 /** The drawing of a sheet for the page, without the bodies of its robots; null if there is none. */
-export function drawingOf(sheet: ShownSheet | undefined): SVGSVGElement | null {
+export function drawingOf(sheet: SheetPage | undefined): SVGSVGElement | null {
   const drawn = new DOMParser().parseFromString(sheet?.svg ?? "", "image/svg+xml").documentElement;
   return drawn instanceof SVGSVGElement ? document.importNode(drawn, true) : null;
 }
 
-export function pathTo(sheets: ShownSheet[], sheet: number): number[] {
+export function pathTo(sheets: SheetPage[], sheet: number): number[] {
   const outer = sheets[sheet]?.outer ?? null;
   return outer === null ? [sheet] : [...pathTo(sheets, outer), sheet];
 }

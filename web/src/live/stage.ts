@@ -9,7 +9,7 @@ import { fitCall } from "./labels";
 import { CanvasPane, type Pen } from "./pane";
 import type { LiveSwarm } from "./swarm";
 import { drawWalk, type Area } from "./walk";
-import type { BitSource } from "../protocol";
+import type { StimulusSource } from "../protocol";
 import type { View } from "./animation";
 import { sameSource } from "../selection";
 
@@ -199,7 +199,7 @@ export class Stage implements View {
     senses.forEach((source, i) => this.#drawSense(pen, source, left + i * share, top + 24 * size, share));
   }
 
-  #drawSense(pen: Pen, source: BitSource, x: number, top: number, width: number): void {
+  #drawSense(pen: Pen, source: StimulusSource, x: number, top: number, width: number): void {
     const size = enlargement.value;
     drawStimulus(pen, this.swarm.value(source), x, top, 12 * size, colors.value);
     pen.fillStyle = colors.value.dim;

@@ -4,7 +4,7 @@
 import { button, element, fill } from "../element";
 import { recall, remember } from "../memory";
 import { offsetOf, toNumber } from "../ports";
-import type { BitSource, ListingRow, ShownEnvironment, ShownSwarm, ShownWaves } from "../protocol";
+import type { StimulusSource, ListingRow, ShownEnvironment, ShownSwarm, ShownWaves } from "../protocol";
 import type { View } from "./animation";
 import { environmentView } from "./environment_view";
 import { numberFormat, numberText, type Valued } from "./numbers";
@@ -81,7 +81,7 @@ export class StateView implements View {
         width: robots.length,
       };
       this.#updates.push(() => setText(value, this.#text(sources, valued)));
-      const point = (source: BitSource | null): void => this.swarm.selection.point(source);
+      const point = (source: StimulusSource | null): void => this.swarm.selection.point(source);
       const pointed = { onmouseenter: () => point(sources[0] ?? null), onmouseleave: () => point(null) };
       return element("tr", pointed, element("th", { scope: "row" }, name), value);
     });
@@ -120,7 +120,7 @@ export class StateView implements View {
     );
   }
 
-  #text(sources: BitSource[], valued: Valued): string {
+  #text(sources: StimulusSource[], valued: Valued): string {
     const values = sources.map(source => this.swarm.value(source));
     return values.includes(null) ? "–" : numberText(toNumber(values as number[]), valued);
   }

@@ -5,7 +5,7 @@ import { decodeFrame, isFrameOf, type Frame } from "../frame";
 import { RunLog } from "../log";
 import { Observable } from "../observable";
 import { bitsOf, keepBits, totalWidth, withBit } from "../ports";
-import type { BitSource, ShownSwarm } from "../protocol";
+import type { StimulusSource, ShownSwarm } from "../protocol";
 import type { Fields } from "../request";
 import { Selection } from "../selection";
 import { Playback } from "./playback";
@@ -35,7 +35,7 @@ export class LiveSwarm {
   readonly running = new Observable(false);
   readonly stopped = new Observable<string | null>(null);
   /** The numbers of robots, inputs and outputs of each net by its name. */
-  nets = new Map<string, BitSource>();
+  nets = new Map<string, StimulusSource>();
   /** Orders to run or to stop that have no answer yet; until then frames are about the time before them. */
   #orders = 0;
   #early: ArrayBuffer | null = null;
@@ -176,7 +176,7 @@ export class LiveSwarm {
   }
 
   /** The value of a source in the cycle that is shown; null before the first. */
-  value(source: BitSource | undefined, cycle = this.playback.cycle): number | null {
+  value(source: StimulusSource | undefined, cycle = this.playback.cycle): number | null {
     if (source === undefined) {
       return null;
     }
@@ -191,12 +191,12 @@ export class LiveSwarm {
   }
 
   /** The thread whose wave a source carries in the cycle that is shown; null where there is but one, or none. */
-  thread(source: BitSource, cycle = this.playback.cycle): number | null {
+  thread(source: StimulusSource, cycle = this.playback.cycle): number | null {
     const waves = this.definition.value?.waves ?? null;
     return waves !== null && waves.threads > 1 && "robot" in source ? threadAt(waves, source.robot, cycle) : null;
   }
 
-  nameOf(source: BitSource): string {
+  nameOf(source: StimulusSource): string {
     const definition = this.definition.value;
     if ("constant" in source) {
       return String(Number(source.constant));
@@ -274,8 +274,8 @@ export class LiveSwarm {
   }
 }
 
-export function netsOf(swarm: ShownSwarm): Map<string, BitSource> {
-  const nets = new Map<string, BitSource>();
+export function netsOf(swarm: ShownSwarm): Map<string, StimulusSource> {
+  const nets = new Map<string, StimulusSource>();
   swarm.robots.forEach((robot, index) => nets.set(robot.net, { robot: index }));
   bitsOf(swarm.outputs).forEach((bit, i) => nets.set(bit.name, swarm.shown[i] ?? { constant: false }));
   bitsOf(swarm.inputs).forEach(bit => nets.set(bit.name, { input: bit.index }));

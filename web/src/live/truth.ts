@@ -2,7 +2,7 @@
 
 import { truthTable } from "../gate";
 import { totalWidth } from "../ports";
-import type { BitSource, ShownSwarm } from "../protocol";
+import type { StimulusSource, ShownSwarm } from "../protocol";
 
 /** A row of a truth table: the bits of the inputs and of the outputs, in order. */
 export interface TruthRow {
@@ -36,7 +36,7 @@ export function logicOf(swarm: ShownSwarm): ((inputs: string) => string) | null 
   }
   return inputs => {
     const bits = new Uint8Array(swarm.robots.length);
-    const value = (source: BitSource): number => valueOf(source, inputs, bits);
+    const value = (source: StimulusSource): number => valueOf(source, inputs, bits);
     for (const robot of order) {
       const senses = swarm.robots[robot]?.senses ?? [];
       bits[robot] = tables[robot]?.[senses.reduce((pattern, source) => 2 * pattern + value(source), 0)] ?? 0;
@@ -45,7 +45,7 @@ export function logicOf(swarm: ShownSwarm): ((inputs: string) => string) | null 
   };
 }
 
-function valueOf(source: BitSource, inputs: string, robots: Uint8Array): number {
+function valueOf(source: StimulusSource, inputs: string, robots: Uint8Array): number {
   if ("constant" in source) {
     return Number(source.constant);
   }

@@ -3,7 +3,7 @@
 import { button, element, fill } from "../element";
 import { closeOutside } from "../menu";
 import { offsetOf, toNumber } from "../ports";
-import type { BitSource, ShownSwarm } from "../protocol";
+import type { StimulusSource, ShownSwarm } from "../protocol";
 import { halfOf, likelyClock } from "./clock";
 import { typedNumber, type Valued } from "./numbers";
 import type { LiveSwarm } from "./swarm";
@@ -62,7 +62,7 @@ export class RunUntil {
       ...kept.map(({ name, robots }) => ({
         port: { width: robots.length },
         name,
-        sources: robots.map((robot): BitSource => ({ robot })),
+        sources: robots.map((robot): StimulusSource => ({ robot })),
       })),
     ];
     const which = element(

@@ -3,7 +3,7 @@
 import { button } from "../element";
 import { recall, remember } from "../memory";
 import { toNumber } from "../ports";
-import type { BitSource } from "../protocol";
+import type { StimulusSource } from "../protocol";
 import { sameSource } from "../selection";
 import { colors } from "../colors";
 import { enlargement } from "../theme";
@@ -104,7 +104,7 @@ export class Waveform extends Diagram {
     const x = (cycle: number): number => this.x(cycle - 1, start);
     const band = { high, low, x, left: this.label, colors: colors.value };
     if (sources.length === 1) {
-      drawBit(pen, band, cycles, cycle => this.swarm.value(sources[0] as BitSource, cycle));
+      drawBit(pen, band, cycles, cycle => this.swarm.value(sources[0] as StimulusSource, cycle));
       return;
     }
     const value = (cycle: number): bigint => toNumber(sources.map(source => this.swarm.value(source, cycle) ?? 0));

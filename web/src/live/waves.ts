@@ -1,6 +1,6 @@
 // The threads of a wave machine: which of its waves a robot carries in a cycle.
 
-import type { BitSource, ShownWaves, WaveBit, WaveRegister } from "../protocol";
+import type { StimulusSource, ShownWaves, WaveBit, WaveRegister } from "../protocol";
 
 /** Threads have so many colors; more repeat them. */
 export const THREAD_COLORS = 8;
@@ -29,7 +29,7 @@ export function registerAt(
   waves: ShownWaves,
   { bits }: WaveRegister,
   { thread, cycle }: { thread: number; cycle: number },
-  value: (source: BitSource, cycle: number) => number | null,
+  value: (source: StimulusSource, cycle: number) => number | null,
 ): number[] | null {
   // Cycles count from 1 here, and those of the machine from 0.
   const begins = ({ after }: WaveBit): number => waves.begins + thread * waves.beat + after + 1;

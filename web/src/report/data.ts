@@ -1,6 +1,6 @@
 // What the pages of results contain.
 
-import type { ShownSchematic, ShownSheet, SwarmRobot, VoxelLook } from "../protocol";
+import type { SchematicPages, SwarmRobot, VoxelLook } from "../protocol";
 import { decodeNumbers, type Gait } from "../robots/gait";
 
 /** A body with its poses. */
@@ -40,11 +40,6 @@ export interface Cell {
   reads: string[];
 }
 
-/** A schematic whose sheets say which nets the groups `nets-N` are. */
-export interface Sheets extends ShownSchematic {
-  sheets: (ShownSheet & { bundles: string[][] })[];
-}
-
 /** A row of a waveform: a text of bits, or the values of a bus. They apply `shift` cycles later. */
 export interface Row {
   name: string;
@@ -69,7 +64,7 @@ export interface RecordedSwarm {
   robots: RecordedRobot[];
   /** The bits of each are hexadecimal digits of four cycles, the first one highest. */
   cells: (Cell & { bits: string })[];
-  schematic: Sheets;
+  schematic: SchematicPages;
   cycles: number;
   /** The cycles at which inputs change. */
   marks: number[];

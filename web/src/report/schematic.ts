@@ -5,7 +5,8 @@ import { Dragging } from "../live/dragging";
 import { drawingOf, pathTo, placeBodies } from "../live/schematic_parts";
 import { Viewport, type Box } from "../live/viewport";
 import { Observable } from "../observable";
-import type { Cell, Sheets } from "./data";
+import type { SchematicPages } from "../protocol";
+import type { Cell } from "./data";
 import { Nets, type Reach } from "./nets";
 import { describe, part } from "./shown";
 
@@ -49,7 +50,7 @@ export class Schematic {
 
   constructor(
     private readonly root: HTMLElement,
-    private readonly sheets: Sheets,
+    private readonly sheets: SchematicPages,
     private readonly cells: Cell[],
   ) {
     this.#nets = new Nets(cells);

@@ -1,8 +1,9 @@
 // A page with a schematic alone.
 
-import type { Cell, Sheets } from "./data";
+import type { SchematicPages } from "../protocol";
+import type { Cell } from "./data";
 import { Schematic } from "./schematic";
 import { part, readPage } from "./shown";
 
-const { schematic, cells } = readPage<{ schematic: Sheets; cells: Cell[] }>();
+const { schematic, cells } = readPage<{ schematic: SchematicPages; cells: Cell[] }>();
 new Schematic(part(document, ".schematic"), schematic, cells);

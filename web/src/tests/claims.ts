@@ -4,13 +4,13 @@ import { CANCELLED, type Connection } from "../connection";
 import { button, element, fill } from "../element";
 import { Observable } from "../observable";
 import type { Program } from "../program";
-import type { ClaimEntry, PropertyAnswer } from "../protocol";
+import type { ClaimEntry, DecidedProperty } from "../protocol";
 import { RequestError } from "../request";
 
 /** What is known of a claim. */
 export type ClaimState =
   | { state: "running"; work: AbortController }
-  | { state: "done"; properties: PropertyAnswer[] }
+  | { state: "done"; properties: DecidedProperty[] }
   | { state: "failed"; message: string };
 
 /** Where a claim leads to. */
@@ -131,14 +131,14 @@ export class ClaimCards {
   }
 
   /** What is known of a property, and the test that refutes it. */
-  #known({ circuit }: ClaimEntry, known: PropertyAnswer | undefined): (HTMLElement | null)[] {
+  #known({ circuit }: ClaimEntry, known: DecidedProperty | undefined): (HTMLElement | null)[] {
     if (known === undefined) {
       return [];
     }
     const { verdict, how, test } = known;
     return [
       element("span", { class: `verdict ${verdict === "proved" ? "pass" : "fail"}` }, `${SIGNS[verdict]} ${how}`),
-      test === null
+      test === undefined
         ? null
         : element(
             "div",

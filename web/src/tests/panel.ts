@@ -5,7 +5,7 @@ import { button, element, fill } from "../element";
 import type { LiveSwarm } from "../live/swarm";
 import { Observable } from "../observable";
 import type { Program } from "../program";
-import type { TestEntry, TestLevel, TestResult } from "../protocol";
+import type { TestEntry, Level, TestVerdict } from "../protocol";
 import { RequestError } from "../request";
 import { ClaimCards } from "./claims";
 import { verdictTable } from "./verdict";
@@ -13,7 +13,7 @@ import { verdictTable } from "./verdict";
 /** What is known of a test. */
 export type TestState =
   | { state: "running"; done: number; all: number; work: AbortController }
-  | { state: "done"; level: TestLevel; results: TestResult[] }
+  | { state: "done"; level: Level; results: TestVerdict[] }
   | { state: "failed"; message: string };
 
 export class TestsPanel {
@@ -76,7 +76,7 @@ export class TestsPanel {
     }
   }
 
-  async #runAll(level: TestLevel): Promise<void> {
+  async #runAll(level: Level): Promise<void> {
     await this.#settle();
     for (const test of this.#tests()) {
       await this.#run(test, level);
@@ -97,7 +97,7 @@ export class TestsPanel {
     return (same.find(test => test.index === index) ?? same[0] ?? tests[index])?.index;
   }
 
-  async #run(test: TestEntry, level: TestLevel): Promise<void> {
+  async #run(test: TestEntry, level: Level): Promise<void> {
     await this.#settle();
     const index = this.#placeOf(test);
     if (index === undefined) {
@@ -143,7 +143,7 @@ export class TestsPanel {
   async #replay(
     circuit: string,
     test: number | string,
-    verdict: Pick<TestResult, "swarm" | "world">,
+    verdict: Pick<TestVerdict, "swarm" | "world">,
     row: number,
   ): Promise<boolean> {
     this.#status.textContent = row === 0 ? "compiling the circuit …" : "running the test up to this row …";
@@ -236,8 +236,8 @@ export class TestsPanel {
       );
     }
     const passed = state.results.every(verdict => verdict.passed);
-    const proof = state.results[0]?.proof ?? null;
-    if (proof !== null) {
+    const proof = state.results[0]?.proof;
+    if (proof !== undefined) {
       return element("span", { class: `verdict ${passed ? "pass" : "fail"}` }, `${passed ? "✓" : "✗"} ${proof}`);
     }
     const level = state.level === "physics" ? "in physics" : "as logic";
@@ -252,7 +252,7 @@ export class TestsPanel {
     if (state?.state !== "done") {
       return [];
     }
-    const withRows = state.results.filter(verdict => verdict.proof === null || verdict.rows.length > 0);
+    const withRows = state.results.filter(verdict => verdict.proof === undefined || verdict.rows.length > 0);
     return withRows.map(verdict =>
       verdictTable(verdict, {
         line: line => this.reveal(line),

@@ -2,7 +2,7 @@
 
 import { counted } from "../counted";
 import { button, element } from "../element";
-import type { RowResult, TestResult } from "../protocol";
+import type { RowVerdict, TestVerdict } from "../protocol";
 
 export interface Leads {
   line: (line: number) => void;
@@ -16,7 +16,7 @@ const MANY = 64;
 /** The world of tests and swarms that name none. */
 const PAPER = "paper";
 
-export function verdictTable(verdict: TestResult, leads: Leads): HTMLElement {
+export function verdictTable(verdict: TestVerdict, leads: Leads): HTMLElement {
   const rows = verdict.rows.length > MANY ? verdict.rows.filter(row => !row.passed).slice(0, MANY) : verdict.rows;
   const left = verdict.rows.length - rows.length;
   const swarm = verdict.swarm === null ? [] : [`swarm ${verdict.swarm}`];
@@ -26,7 +26,7 @@ export function verdictTable(verdict: TestResult, leads: Leads): HTMLElement {
     "div",
     { class: "scroll" },
     heading === "" ? null : element("h4", {}, heading),
-    verdict.fault === null ? null : element("p", { class: "verdict fail" }, verdict.fault),
+    verdict.fault !== undefined && element("p", { class: "verdict fail" }, verdict.fault),
     element(
       "table",
       { class: "rows" },
@@ -34,12 +34,12 @@ export function verdictTable(verdict: TestResult, leads: Leads): HTMLElement {
       element("tbody", {}, ...rows.map(row => tableRow(row, leads, hasThreads(verdict)))),
     ),
     left > 0 && element("p", { class: "dim" }, counted(left, "more row")),
-    verdict.printed !== null &&
+    verdict.printed !== undefined &&
       element("figure", {}, element("figcaption", {}, "Written"), element("pre", {}, verdict.printed)),
   );
 }
 
-function head(verdict: TestResult): HTMLElement {
+function head(verdict: TestVerdict): HTMLElement {
   const names = (ports: { name: string }[]): HTMLElement[] =>
     ports.map(port => element("th", { scope: "col" }, port.name));
   return element(
@@ -60,11 +60,11 @@ function head(verdict: TestResult): HTMLElement {
 }
 
 /** Whether a row says its thread, as those of a wave machine do. */
-function hasThreads(verdict: TestResult): boolean {
-  return verdict.rows.some(row => row.thread !== null);
+function hasThreads(verdict: TestVerdict): boolean {
+  return verdict.rows.some(row => row.thread !== undefined);
 }
 
-function tableRow(row: RowResult, leads: Leads, threaded: boolean): HTMLElement {
+function tableRow(row: RowVerdict, leads: Leads, threaded: boolean): HTMLElement {
   const cells = (values: { text: string }[]): HTMLElement[] =>
     values.map((value, i) => element("td", { class: i === 0 ? "first" : "" }, value.text));
   return element(
@@ -73,7 +73,7 @@ function tableRow(row: RowResult, leads: Leads, threaded: boolean): HTMLElement 
     ...cells(row.inputs),
     ...cells(row.expected),
     ...cells(row.observed),
-    threaded && element("td", { class: "thread" }, row.thread === null ? "" : `thread ${row.thread + 1}`),
+    threaded && element("td", { class: "thread" }, row.thread === undefined ? "" : `thread ${row.thread + 1}`),
     element("td", { class: row.passed ? "pass" : "fail" }, row.passed ? "✓ pass" : "✗ fail"),
     element(
       "td",

@@ -15,8 +15,7 @@ pub struct Label {
 /// A related note with a place in its own file.
 pub type Related = Label;
 
-/// One fault of the user's input: what is wrong, where, and what to do about it. [`super::json`] is its form for
-/// programs.
+/// One fault of the user's input: what is wrong, where, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Diagnostic {
     pub code: Code,

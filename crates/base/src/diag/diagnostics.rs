@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use super::{Diagnostic, DiagnosticReport, json, visible};
+use super::{Diagnostic, Finding, findings, visible};
 use crate::source::{Sources, Span};
 
 /// What is wrong with the user's input, with the texts that the places are in.
@@ -15,8 +15,8 @@ pub struct Diagnostics {
 }
 
 impl Diagnostics {
-    pub fn json(&self) -> Vec<DiagnosticReport> {
-        json(&self.list, &self.sources)
+    pub fn findings(&self) -> Vec<Finding> {
+        findings(&self.list, &self.sources)
     }
 
     fn place(&self, span: Span) -> String {

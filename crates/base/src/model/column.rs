@@ -16,7 +16,9 @@ pub struct Column {
     /// The number of its words, if it is an array.
     #[serde(skip)]
     pub words: Option<usize>,
-    #[serde(skip)]
+    /// The members of its enumeration with their digits: `[["fetch", "0"], ["execute", "1"]]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<Vec<[String; 2]>>"))]
     pub members: Option<Arc<Enumeration>>,
 }
 

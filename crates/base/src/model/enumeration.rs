@@ -1,5 +1,7 @@
 //! Enumerations: names for the values of a net.
 
+use serde::{Serialize, Serializer};
+
 use crate::source::Span;
 
 /// A declared enumeration: `enum phase { fetch, execute }`.
@@ -10,6 +12,14 @@ pub struct Enumeration {
     pub width: u32,
     /// The members in order of declaration; no two have the same value.
     pub members: Vec<EnumerationMember>,
+}
+
+/// Its members with their digits: `[["fetch", "0"], ["execute", "1"]]`
+impl Serialize for Enumeration {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let width = self.width as usize;
+        serializer.collect_seq(self.members.iter().map(|one| (&one.name, format!("{:0width$b}", one.value))))
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]

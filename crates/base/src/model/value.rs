@@ -117,7 +117,7 @@ impl fmt::Display for Value {
 
 /// A [`Value`] as data.
 #[derive(Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "Value"))]
 struct ValueRecord {
     /// As the user writes it, such as `4'd5`.
     text: String,

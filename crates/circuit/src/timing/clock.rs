@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 
 use petgraph::visit::{Dfs, NodeIndexable};
+use serde::Serialize;
 
 use crate::cells::CellKind;
 use crate::timing::arrivals::{Arrivals, Delay, Delays};
@@ -16,9 +17,10 @@ const MOST_PERIODS: usize = 64;
 
 /// The times of an input that opens and closes latches, in cycles. They hold for robots with delays between one cycle
 /// and their clock.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ClockTimes {
-    pub clock: NetId,
+    pub clock: String,
     /// The least time for which it must be 1, in cycles.
     pub high: u32,
     /// The least time for which it must be 0, in cycles.
@@ -26,18 +28,20 @@ pub struct ClockTimes {
     /// The least time from one rise to the next, in cycles.
     pub period: u32,
     /// The least time for which it must be 1 and 0 in turn, if both are the same, in cycles.
+    #[serde(skip)]
     pub half: u32,
     /// The longest time between the opening of a latch and the arrival of its data, at this period.
     pub borrowed: u32,
     pub inputs: Vec<InputTimes>,
     pub paths: Vec<ClockPath>,
     /// The latches whose data may change before they are closed.
-    pub races: Vec<Vec<NetId>>,
+    pub races: Vec<Vec<String>>,
 }
 
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct InputTimes {
-    pub input: NetId,
+    pub input: String,
     pub rises: bool,
     /// Cycles before the edge from which it must be stable.
     pub setup: u32,
@@ -45,20 +49,15 @@ pub struct InputTimes {
     pub hold: u32,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum PathEnds {
-    InputToRegister,
-    RegisterToRegister,
-    RegisterToOutput,
-}
-
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ClockPath {
-    pub ends: PathEnds,
+    /// `input to register`, `register to register` or `register to output`.
+    pub ends: &'static str,
     /// The time that a change takes along it, in cycles.
     pub cycles: u32,
     /// The nets along it, from an input on.
-    pub nets: Vec<NetId>,
+    pub nets: Vec<String>,
 }
 
 impl ClockTimes {
@@ -110,7 +109,7 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Clocked<'_, F> {
         let low = least(1, hold, |low| works(hold, low));
         let period = least(high + low, 2 * hold, |period| works(high, period - high) && works(period - low, low));
         Some(ClockTimes {
-            clock: self.clock,
+            clock: self.netlist.net_name(self.clock),
             high,
             low,
             period,
@@ -206,6 +205,7 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Clocked<'_, F> {
                     let closed = latch.chain.iter().map(|&id| (self.kind)(id).clock).sum();
                     let hold = latch.needed(self.netlist, self.kind, closed, &earliest).unwrap_or(0);
                     let old = times.take().map_or((0, 0), |old| (old.setup, old.hold));
+                    let input = self.netlist.net_name(input);
                     times = Some(InputTimes { input, rises, setup: setup.max(old.0), hold: hold.max(old.1) });
                 }
             }
@@ -225,14 +225,14 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Clocked<'_, F> {
         let others: Vec<NetId> = self.netlist.inputs().iter().copied().filter(|&id| id != self.clock).collect();
         let from_inputs = self.halves(&others);
         let kinds = [
-            (PathEnds::InputToRegister, &from_inputs, &others[..], &data),
-            (PathEnds::RegisterToRegister, halves, &[self.clock][..], &data),
-            (PathEnds::RegisterToOutput, halves, &[self.clock][..], &outputs),
+            ("input to register", &from_inputs, &others[..], &data),
+            ("register to register", halves, &[self.clock][..], &data),
+            ("register to output", halves, &[self.clock][..], &outputs),
         ];
         kinds.into_iter().filter_map(|(ends, halves, from, to)| self.slowest(ends, halves, from, to)).collect()
     }
 
-    fn slowest(&self, ends: PathEnds, halves: &Halves, from: &[NetId], to: &BTreeSet<NetId>) -> Option<ClockPath> {
+    fn slowest(&self, ends: &'static str, halves: &Halves, from: &[NetId], to: &BTreeSet<NetId>) -> Option<ClockPath> {
         let mut slowest: Option<ClockPath> = None;
         for (_, phase) in halves.iter().flatten() {
             let launch = |update: &NetUpdate| from.contains(&phase.net(update)).then_some(0);
@@ -240,21 +240,21 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Clocked<'_, F> {
             if let Some((cycles, event)) = arrivals.last(|update| to.contains(&phase.updates[update].node))
                 && slowest.as_ref().is_none_or(|slowest| cycles > slowest.cycles)
             {
-                slowest = Some(ClockPath { ends, cycles, nets: arrivals.path(phase, event) });
+                slowest = Some(ClockPath { ends, cycles, nets: self.netlist.net_names(&arrivals.path(phase, event)) });
             }
         }
         slowest
     }
 
     /// The latches of this clock whose data may change before they are closed, although no other input switches.
-    fn races(&self, halves: &Halves) -> Vec<Vec<NetId>> {
+    fn races(&self, halves: &Halves) -> Vec<Vec<String>> {
         let closing = |passages: &[Passage]| {
             let latches = self.storage.latches.iter().zip(passages.to_vec());
             let own = latches.filter(|(latch, passage)| latch.root == self.clock && *passage == Passage::Closing);
             own.map(|(latch, _)| latch.cells.clone()).collect::<Vec<_>>()
         };
         let found: BTreeSet<Vec<NetId>> = halves.iter().flatten().flat_map(|(passages, _)| closing(passages)).collect();
-        found.into_iter().collect()
+        found.iter().map(|nets| self.netlist.net_names(nets)).collect()
     }
 }
 

@@ -7,9 +7,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use serde::Serialize;
+
 use crate::cells::CellLibrary;
 use crate::passes::sweep;
 use crate::storage::{Follower, Inverters, Latch};
+use crate::timing::wording;
 use crate::{Cell, FlipFlop, NetId, Netlist, Storage};
 use nbc_base::model::Function;
 
@@ -17,15 +20,15 @@ use nbc_base::model::Function;
 pub struct Held {
     pub netlist: Netlist,
     pub latches: Vec<NetId>,
-    pub kept: Vec<(NetId, WhyKept)>,
+    pub kept: Vec<KeptLatch>,
 }
 
-/// Why a latch stays as it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WhyKept {
-    NotOneBit,
-    /// For example, its data depend on the net that opens it.
-    NotRecognized,
+/// A latch that stays as it is.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct KeptLatch {
+    pub net: String,
+    pub why: &'static str,
 }
 
 /// The multiplexer that shows its second input while the first is 1, and else the third; and that for the opposite.
@@ -47,13 +50,13 @@ impl Held {
         }
         let storage = Storage::of(netlist, library.kinds_of(netlist));
         let inverters = Inverters::of(netlist);
-        let mut kept: Vec<(NetId, WhyKept)> =
-            storage.unphased.iter().map(|unphased| (unphased.nets[0], WhyKept::NotOneBit)).collect();
+        let mut kept: Vec<(NetId, &str)> =
+            storage.unphased.iter().map(|unphased| (unphased.nets[0], wording::NOT_ONE_BIT)).collect();
         let mut plans = Vec::new();
         for (number, latch) in storage.latches.iter().enumerate() {
             match Plan::of(netlist, &inverters, latch) {
                 Some(plan) => plans.push((number, plan)),
-                None => kept.push((latch.cells[0], WhyKept::NotOneBit)),
+                None => kept.push((latch.cells[0], wording::NOT_ONE_BIT)),
             }
         }
         loop {
@@ -67,6 +70,7 @@ impl Held {
             if lost.is_empty() {
                 let latches = latches.into_iter().filter(|&latch| is_used(latch)).collect();
                 kept.sort_by_key(|(net, _)| *net);
+                let kept = kept.iter().map(|&(net, why)| KeptLatch { net: made.net_name(net), why }).collect();
                 return Some(Self { netlist: made, latches, kept });
             }
             // Both latches of a flip-flop stay.
@@ -76,7 +80,7 @@ impl Held {
                 lost.contains(&number) || storage.flip_flops.iter().filter(pair).any(with)
             };
             for (number, _) in plans.extract_if(.., |(number, _)| is_lost(*number)) {
-                kept.push((storage.latches[number].cells[0], WhyKept::NotRecognized));
+                kept.push((storage.latches[number].cells[0], wording::NOT_RECOGNIZED));
             }
         }
     }

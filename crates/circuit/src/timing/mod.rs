@@ -19,8 +19,8 @@ use crate::timing::phase::{MOST_ROOTS, Phase, passages, phases};
 use crate::{NetId, Netlist, Node, Storage, Unphased, WhyUnphased};
 
 pub use arrivals::Delays;
-pub use clock::{ClockPath, ClockTimes, InputTimes, PathEnds};
-pub use held::{Held, WhyKept};
+pub use clock::{ClockPath, ClockTimes, InputTimes};
+pub use held::{Held, KeptLatch};
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Timing {

@@ -9,9 +9,7 @@ use nbc_base::model::Claim;
 use nbc_base::source::SharedWorld;
 use nbc_circuit::properties::SearchBudget;
 use nbc_session::report::{self, Scheme};
-use nbc_session::{
-    Checked, Choice, ClaimReport, CompileOptions, Compiled, Observer, RunList, RunReport, Session, TestOptions,
-};
+use nbc_session::{Checked, Choice, CompileOptions, Compiled, Observer, RunList, RunReport, Session, TestOptions};
 use nbc_swarm::{Level, Room};
 
 pub(super) fn perform(
@@ -93,9 +91,9 @@ fn prove(
         let mut search = search.map_err(|faults| said(&faults))?;
         while search.advance(watcher) {}
         going(watcher)?;
-        let report = ClaimReport::of(&search.finish());
-        proved &= report.count("proved") == report.properties().len();
-        text += &report.text();
+        let decided = search.finish();
+        proved &= decided.count("proved") == decided.properties.len();
+        text += &decided.text();
     }
     if claims.is_empty() {
         Err(wording::nothing_to_run())

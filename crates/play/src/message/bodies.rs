@@ -1,14 +1,11 @@
 //! Robots of the library, bodies that a page has made, how voxels look, and a search for gates while it runs.
 
 use serde::Serialize;
-#[cfg(test)]
-use ts_rs::TS;
 
-use nbc_base::model::Material;
-use nbc_session::report::{Look, Looks};
+use nbc_session::report::VoxelLook;
 
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct RobotCards {
     pub(crate) robots: Vec<RobotCard>,
     pub(crate) looks: Vec<VoxelLook>,
@@ -16,7 +13,7 @@ pub(crate) struct RobotCards {
 }
 
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct RobotCard {
     pub(crate) name: String,
     pub(crate) function: &'static str,
@@ -38,7 +35,7 @@ pub(crate) struct RobotCard {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct PaletteEntry {
     /// Its character in the rows of bodies.
     pub(crate) code: char,
@@ -48,18 +45,8 @@ pub(crate) struct PaletteEntry {
     pub(crate) look: usize,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(test, derive(TS))]
-pub(crate) struct VoxelLook {
-    pub(crate) name: String,
-    pub(crate) color: String,
-    pub(crate) ink: Option<String>,
-    /// Polygons within the unit square.
-    pub(crate) mark: Option<Vec<Vec<[f64; 2]>>>,
-}
-
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct ProbeReport {
     /// Under each pattern: 00, 01, 10 and 11, or 000 to 111.
     pub(crate) gaits: Vec<EncodedGait>,
@@ -73,7 +60,7 @@ pub(crate) struct ProbeReport {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct EncodedGait {
     /// Poses in a cycle.
     pub(crate) frames: u32,
@@ -84,7 +71,7 @@ pub(crate) struct EncodedGait {
 
 /// The character of a body over a few switches.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct CharacterSketch {
     pub(crate) clock: u32,
     pub(crate) margin: f64,
@@ -95,28 +82,16 @@ pub(crate) struct CharacterSketch {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct KeptRobot {
     pub(crate) path: String,
     #[serde(rename = "use")]
     pub(crate) declaration: String,
 }
 
-pub(crate) fn looks(looks: &Looks) -> Vec<VoxelLook> {
-    let look = |(material, look): (&Material, Look)| VoxelLook {
-        name: material.name.clone(),
-        color: look.color.to_string(),
-        ink: look.mark.map(|mark| mark.ink.to_string()),
-        mark: look
-            .mark
-            .map(|mark| mark.polygons.iter().map(|one| one.iter().map(|&(x, y)| [x, y]).collect()).collect()),
-    };
-    looks.all().map(look).collect()
-}
-
 /// The niches of an archive that have changed in a generation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct ArchiveChange {
     pub(crate) id: u64,
     pub(crate) generation: u32,
@@ -127,11 +102,11 @@ pub(crate) struct ArchiveChange {
 
 /// The name of an axis and its number of bins.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct AxisEntry(pub(crate) &'static str, pub(crate) usize);
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct NicheEntry {
     /// The bin on each axis.
     pub(crate) place: Vec<u16>,
@@ -142,7 +117,7 @@ pub(crate) struct NicheEntry {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct EvolutionEnd {
     pub(crate) generations: u32,
     pub(crate) evaluations: u64,

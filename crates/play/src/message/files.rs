@@ -1,11 +1,9 @@
 //! Files, examples, and what a page is told first.
 
 use serde::Serialize;
-#[cfg(test)]
-use ts_rs::TS;
 
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct Greeting {
     pub(crate) version: &'static str,
     pub(crate) folder: String,
@@ -25,7 +23,7 @@ pub(crate) struct Greeting {
 }
 
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct PlayLimits {
     pub(crate) robots: usize,
     /// Cycles that can be gone back.
@@ -35,21 +33,21 @@ pub(crate) struct PlayLimits {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct FileEntry {
     pub(crate) path: String,
     pub(crate) size: u64,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct ExampleEntry {
     pub(crate) name: String,
     pub(crate) about: String,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct FileText {
     pub(crate) path: String,
     pub(crate) text: String,
@@ -58,21 +56,21 @@ pub(crate) struct FileText {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct FileStamp {
     pub(crate) stamp: Option<String>,
 }
 
 /// A file that was read or saved and has another stamp, or none because it is gone.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct FileChange {
     pub(crate) path: String,
     pub(crate) stamp: Option<String>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct TakenFile {
     /// Relative to the page. It works once.
     pub(crate) url: String,

@@ -3,14 +3,12 @@
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
-#[cfg(test)]
-use ts_rs::TS;
 
-use super::program::Finding;
 use super::written::WrittenProgram;
+use nbc_base::diag::Finding;
 
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct LessonList {
     pub(crate) lessons: Vec<LessonEntry>,
     /// What is wrong with the files of an author; such a file gives no lesson.
@@ -18,7 +16,7 @@ pub(crate) struct LessonList {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct LessonEntry {
     /// The name of its file without the number and the ending.
     pub(crate) name: String,
@@ -39,7 +37,7 @@ pub(crate) struct LessonEntry {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct LessonGoal {
     pub(crate) number: u32,
     pub(crate) of: LessonMeasure,
@@ -47,7 +45,7 @@ pub(crate) struct LessonGoal {
 
 /// How a circuit is measured: by its robots, or by the gates of its source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum LessonMeasure {
     Robots,
@@ -55,7 +53,7 @@ pub(crate) enum LessonMeasure {
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct LessonStep {
     pub(crate) task: String,
     /// The step is done when all of these hold at once.
@@ -65,7 +63,7 @@ pub(crate) struct LessonStep {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum LessonTab {
     #[default]
@@ -77,7 +75,7 @@ pub(crate) enum LessonTab {
 pub(crate) type PortValues = BTreeMap<String, u32>;
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(tag = "is", rename_all = "kebab-case")]
 pub(crate) enum LessonCheck {
     /// The ports have these values now.
@@ -138,7 +136,7 @@ pub(crate) enum LessonCheck {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum LessonCount {
     Robots,
@@ -148,7 +146,7 @@ pub(crate) enum LessonCount {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) enum LessonComparison {
     #[serde(rename = "<=")]
     AtMost,
@@ -159,7 +157,7 @@ pub(crate) enum LessonComparison {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ClassPlace {
     /// The name of the lesson.
     pub lesson: String,
@@ -170,20 +168,20 @@ pub struct ClassPlace {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct ClassName {
     /// With it, the page can join by this name again.
     pub(crate) key: String,
 }
 
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ClassCourse {
     pub lessons: Vec<ClassLesson>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ClassLesson {
     pub name: String,
     pub title: String,
@@ -192,14 +190,14 @@ pub struct ClassLesson {
 }
 
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ClassRoll {
     pub members: Vec<ClassMember>,
     pub most: usize,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ClassMember {
     pub name: String,
     /// Where the learner is; none outside of lessons.

@@ -9,8 +9,6 @@ mod swarm;
 mod written;
 
 use serde::Serialize;
-#[cfg(test)]
-use ts_rs::TS;
 
 pub(super) use bodies::*;
 pub(super) use files::*;
@@ -20,14 +18,14 @@ pub(super) use lesson::{
     LessonStep, LessonTab, PortValues,
 };
 pub(super) use program::*;
-pub(super) use program::{Finding, findings};
 pub(super) use swarm::*;
 pub(super) use written::{CALLS, WrittenProgram};
 
 use crate::refusal::Refusal;
+use nbc_session::DecidedClaim;
 
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub(super) enum ServerMessage {
     Result {
@@ -52,11 +50,11 @@ pub(super) enum ServerMessage {
 }
 
 #[derive(Clone, Copy, Debug, Default, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(super) struct Nothing {}
 
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(tag = "to", content = "ok", rename_all = "lowercase")]
 pub(super) enum RequestResult {
     Hello(Greeting),
@@ -68,7 +66,7 @@ pub(super) enum RequestResult {
     Compile(SwarmAnswer),
     Replay(SwarmAnswer),
     Test(TestAnswer),
-    Prove(ClaimAnswer),
+    Prove(DecidedClaim),
     Robots(RobotCards),
     Probe(ProbeReport),
     Keep(KeptRobot),
@@ -80,7 +78,7 @@ pub(super) enum RequestResult {
 
 /// Events sent without a request.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(tag = "event", rename_all = "lowercase")]
 pub(super) enum PlayEvent {
     Archive(ArchiveChange),

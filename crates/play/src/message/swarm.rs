@@ -1,38 +1,35 @@
 //! A swarm that a page can run.
 
 use serde::Serialize;
-#[cfg(test)]
-use ts_rs::TS;
 
-use super::bodies::VoxelLook;
-use super::program::PortEntry;
-use nbc_session::report::{SchematicPages, SheetPage};
+use nbc_base::model::Column;
+use nbc_session::report::{SchematicPages, VoxelLook};
 use nbc_swarm::StimulusSource;
 
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct SwarmAnswer {
     pub(crate) swarm: Box<ShownSwarm>,
 }
 
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct ShownSwarm {
     /// Counts the swarms of a connection; frames have its lowest byte.
     pub(crate) number: u32,
     pub(crate) circuit: String,
     pub(crate) swarm: Option<String>,
-    pub(crate) inputs: Vec<PortEntry>,
-    pub(crate) outputs: Vec<PortEntry>,
+    pub(crate) inputs: Vec<Column>,
+    pub(crate) outputs: Vec<Column>,
     /// The source of each bit of the outputs.
-    pub(crate) shown: Vec<BitSource>,
+    pub(crate) shown: Vec<StimulusSource>,
     pub(crate) robots: Vec<SwarmRobot>,
     /// The gates of the circuit as it is written.
     pub(crate) gates: usize,
     pub(crate) registers: Vec<ShownRegister>,
     pub(crate) listing: Option<ShownListing>,
     pub(crate) looks: Vec<VoxelLook>,
-    pub(crate) schematic: ShownSchematic,
+    pub(crate) schematic: SchematicPages,
     pub(crate) timing: String,
     /// Cycles after which every change has settled.
     pub(crate) hold: u32,
@@ -49,7 +46,7 @@ pub(crate) struct ShownSwarm {
 
 /// An input that opens and closes latches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct ShownClock {
     /// The bit of the inputs.
     pub(crate) bit: usize,
@@ -58,7 +55,7 @@ pub(crate) struct ShownClock {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct ShownScript {
     pub(crate) title: String,
     /// The cycles whose inputs it gives.
@@ -68,7 +65,7 @@ pub(crate) struct ShownScript {
 
 /// What is on the other side of a circuit's ports while a test runs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct ShownEnvironment {
     pub(crate) name: String,
     /// The text that it writes, each piece with the cycles before it; none if it never writes any.
@@ -78,7 +75,7 @@ pub(crate) struct ShownEnvironment {
 
 /// A memory of an environment. Words are in hexadecimal.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct ShownMemory {
     pub(crate) name: String,
     /// Bits of a word.
@@ -93,35 +90,8 @@ pub(crate) struct ShownMemory {
     pub(crate) writes: Vec<(usize, usize, String)>,
 }
 
-#[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
-pub(crate) struct ShownSchematic {
-    /// The sheets, each after the one around it; the first shows the whole.
-    pub(crate) sheets: Vec<ShownSheet>,
-    pub(crate) bodies: Vec<String>,
-    /// For each robot, the sheet that shows it.
-    pub(crate) homes: Vec<usize>,
-}
-
-#[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
-pub(crate) struct ShownSheet {
-    pub(crate) name: String,
-    pub(crate) about: String,
-    pub(crate) outer: Option<usize>,
-    pub(crate) svg: String,
-}
-
-impl From<SchematicPages> for ShownSchematic {
-    fn from(pages: SchematicPages) -> Self {
-        let SchematicPages { sheets, bodies, homes } = pages;
-        let sheet = |SheetPage { name, about, outer, svg, .. }| ShownSheet { name, about, outer, svg };
-        Self { sheets: sheets.into_iter().map(sheet).collect(), bodies, homes }
-    }
-}
-
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct ShownRegister {
     /// The name of its net, after those of the calls that it is in where another has the same.
     pub(crate) name: String,
@@ -131,14 +101,14 @@ pub(crate) struct ShownRegister {
 
 /// A table over an output, such as the instructions of a machine or the transitions of its states.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct ShownListing {
     pub(crate) port: String,
     pub(crate) rows: Vec<ListingRow>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct ListingRow {
     /// The digits of the output for which it is, `-` for any; the first row that fits counts.
     pub(crate) bits: String,
@@ -150,7 +120,7 @@ pub(crate) struct ListingRow {
 
 /// A wave machine; docs/play-protocol.md says whose wave a robot carries in a cycle.
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct ShownWaves {
     /// Cycles of a step.
     pub(crate) step: usize,
@@ -168,7 +138,7 @@ pub(crate) struct ShownWaves {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct WaveRegister {
     pub(crate) name: String,
     /// The most significant first.
@@ -177,9 +147,9 @@ pub(crate) struct WaveRegister {
 
 /// Where and when a bit of such a register is seen.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct WaveBit {
-    pub(crate) source: BitSource,
+    pub(crate) source: StimulusSource,
     /// The cycles from the beginning of the step after to the one at whose end the source has the bit.
     pub(crate) after: i64,
     /// The values after no step, after one, and so on, before the source has any.
@@ -187,7 +157,7 @@ pub(crate) struct WaveBit {
 }
 
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct SwarmRobot {
     /// The name by which files and the schematic know its net.
     pub(crate) net: String,
@@ -199,7 +169,7 @@ pub(crate) struct SwarmRobot {
     pub(crate) robot: String,
     /// Words with their texts.
     pub(crate) about: Vec<[String; 2]>,
-    pub(crate) senses: Vec<BitSource>,
+    pub(crate) senses: Vec<StimulusSource>,
     /// The rows from the top.
     pub(crate) body: Vec<String>,
     /// Columns and rows.
@@ -210,24 +180,4 @@ pub(crate) struct SwarmRobot {
     pub(crate) clock: u32,
     pub(crate) margin: f64,
     pub(crate) errors: f64,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum BitSource {
-    /// A bit of the inputs.
-    Input(usize),
-    Robot(usize),
-    Constant(bool),
-}
-
-impl From<StimulusSource> for BitSource {
-    fn from(source: StimulusSource) -> Self {
-        match source {
-            StimulusSource::Input(bit) => Self::Input(bit),
-            StimulusSource::Robot(index) => Self::Robot(index),
-            StimulusSource::Constant(bit) => Self::Constant(bit),
-        }
-    }
 }

@@ -3,8 +3,6 @@
 use std::collections::BTreeSet;
 
 use serde::Serialize;
-#[cfg(test)]
-use ts_rs::TS;
 
 use nbc_base::source::{Sources, Span};
 use nbc_lang::syntax::tree::{Declaration, DeclarationKind, ExpressionSyntaxKind};
@@ -14,7 +12,7 @@ use nbc_lang::syntax::{TokenKind, parse, tokens};
 pub(crate) const CALLS: &str = "calls";
 
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(TS))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct WrittenProgram {
     /// Its tokens, with a space between two.
     pub(crate) text: String,

@@ -207,8 +207,8 @@ fn what_refutes_a_property_is_watched_like_a_test() {
     assert_eq!(claims[0]["properties"][0], json!({ "property": "never main and side", "line": 7 }), "{program:?}");
     let answer = tab.ask(&json!({ "id": 2, "do": "prove", "path": "lights.nb", "claim": 0 })).pop().unwrap();
     let found = &answer["ok"]["properties"];
-    let proved = json!({ "verdict": "proved", "how": "by induction over 1 step", "test": null });
-    assert_eq!((&found[0], &found[1]["verdict"]), (&proved, &"refuted".into()), "{answer}");
+    assert_eq!(found[0]["how"], "by induction over 1 step", "{answer}");
+    assert_eq!([0, 1].map(|at| found[at]["verdict"].as_str().unwrap()), ["proved", "refuted"], "{answer}");
     let replay = json!({ "id": 3, "do": "replay", "path": "lights.nb", "test": found[1]["test"], "swarm": null,
         "row": 3 });
     let shown = tab.ask(&replay).pop().unwrap();

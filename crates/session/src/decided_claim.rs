@@ -1,75 +1,42 @@
-//! What is known of claims, as text and as data.
+//! A decided claim, and its text.
 
 use std::fmt::Write;
 
 use serde::Serialize;
 
-use crate::claims::DecidedClaim;
-use crate::property_report::PropertyReport;
+use crate::decided_property::DecidedProperty;
 use crate::swarm_run::RunEnd;
 use crate::test::TestRun;
-use nbc_base::model::{CircuitTest, Property, PropertyKind, Stimulation, TestRow};
+use nbc_base::model::{CircuitTest, Stimulation, TestRow};
 use nbc_base::source::Sources;
-use nbc_circuit::formats::AigerModel;
-use nbc_circuit::properties::{EmptyProof, PropertySearch};
 use nbc_lang::syntax;
 
-/// A claim, or the properties of a model.
+/// A claim, or the properties of a model, with a verdict on each property except assumptions.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ClaimReport {
-    file: String,
+pub struct DecidedClaim {
+    pub file: String,
     #[serde(skip_serializing_if = "Option::is_none")]
-    line: Option<usize>,
+    pub line: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    circuit: Option<String>,
+    pub circuit: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    title: Option<String>,
-    properties: Vec<PropertyReport>,
+    pub title: Option<String>,
+    pub properties: Vec<DecidedProperty>,
     /// Calls of the solver plus learned clauses.
-    work: u64,
+    pub work: u64,
 }
 
-impl ClaimReport {
-    pub fn of(decided: &DecidedClaim) -> Self {
-        let DecidedClaim { claim, system, verdicts, empty, tests, work } = decided;
-        let known = claim.wanted().zip(verdicts).zip(tests).enumerate();
-        let properties = known.map(|(number, ((property, verdict), test))| PropertyReport {
-            line: Some(property.line),
-            test: test.as_ref().map(text_of_test),
-            empty: empty[number].map(|why| why_empty(why, property, &claim.properties)),
-            ..PropertyReport::of(system, number, property.text.clone(), verdict)
-        });
-        Self {
-            file: claim.file.clone(),
-            line: Some(claim.line),
-            circuit: Some(claim.circuit.to_string()),
-            title: Some(claim.title.clone()).filter(|title| !title.is_empty()),
-            properties: properties.collect(),
-            work: *work,
-        }
-    }
-
-    pub fn of_model(file: &str, model: &AigerModel, search: &PropertySearch) -> Self {
-        let verdicts = search.verdicts();
-        let known = model.properties.iter().zip(&verdicts).enumerate();
-        let properties = known.map(|(number, (name, verdict))| PropertyReport {
-            empty: search.empty_proof(number).map(|_| "no step satisfies the constraints".to_owned()),
-            witness: Some(model.witness(number, verdict)),
-            ..PropertyReport::of(&model.system, number, name.clone(), verdict)
-        });
-        let (line, circuit, title) = (None, None, None);
-        Self { file: file.to_owned(), line, circuit, title, properties: properties.collect(), work: search.work() }
+impl DecidedClaim {
+    /// The tests that refute properties, with the numbers of these.
+    pub fn refuted(&self) -> impl Iterator<Item = (usize, &CircuitTest)> {
+        self.properties.iter().enumerate().filter_map(|(number, property)| Some((number, property.shown.as_ref()?)))
     }
 
     /// Notes whether robots did the same in the test that refutes a property.
     pub fn note_runs(&mut self, property: usize, runs: &[TestRun]) {
         let is_same = runs.iter().all(|run| run.verdict.passed && run.end == RunEnd::Complete);
         self.properties[property].physics = Some(is_same);
-    }
-
-    pub fn properties(&self) -> &[PropertyReport] {
-        &self.properties
     }
 
     pub fn count(&self, verdict: &str) -> usize {
@@ -91,17 +58,7 @@ impl ClaimReport {
     }
 }
 
-fn why_empty(why: EmptyProof, property: &Property, all: &[Property]) -> String {
-    let is_assumed = all.iter().any(|other| other.kind == PropertyKind::Assume);
-    let under = if is_assumed { " under the assumptions" } else { "" };
-    match why {
-        EmptyProof::NoStep => "no step satisfies the assumptions".to_owned(),
-        EmptyProof::NeverChecked if property.has_condition => format!("its condition is never true{under}"),
-        EmptyProof::NeverChecked => format!("no run is long enough{under}"),
-    }
-}
-
-fn text_of_test(test: &CircuitTest) -> String {
+pub(super) fn text_of_test(test: &CircuitTest) -> String {
     let Stimulation::Rows(rows) = &test.stimulation else { unreachable!("a run has rows") };
     let ports = |columns: &[nbc_base::model::Column]| {
         columns.iter().map(|column| column.name.clone()).collect::<Vec<_>>().join(" ")

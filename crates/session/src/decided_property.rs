@@ -1,17 +1,17 @@
-//! What is known of a property, as text and as data.
+//! A decided property, and its text.
 
 use std::fmt::Write;
 
 use serde::Serialize;
 
 use nbc_base::diag::counted;
+use nbc_base::model::CircuitTest;
 use nbc_circuit::properties::{InductiveProof, PropertyVerdict, TransitionSystem};
 use nbc_circuit::{Clause, ValuedBit};
 
-/// A property and what is known of it.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct PropertyReport {
+pub struct DecidedProperty {
     /// As written, or the name of a bad state of a model.
     pub property: String,
     /// `None` for a model.
@@ -20,6 +20,8 @@ pub struct PropertyReport {
     /// `proved`, `refuted` or `undecided`.
     #[cfg_attr(feature = "schema", schemars(extend("enum" = ["proved", "refuted", "undecided"])))]
     pub verdict: &'static str,
+    /// What the verdict is based on, in words.
+    pub how: String,
     /// `induction` or `invariant`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<&'static str>,
@@ -38,6 +40,9 @@ pub struct PropertyReport {
     /// A test that refutes it, in the language.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub test: Option<String>,
+    /// That test. The circuit passes it, and its last row shows the fault.
+    #[serde(skip)]
+    pub shown: Option<CircuitTest>,
     /// In AIGER's format.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub witness: Option<String>,
@@ -46,25 +51,32 @@ pub struct PropertyReport {
     pub physics: Option<bool>,
 }
 
-impl PropertyReport {
-    pub(super) fn of(system: &TransitionSystem, number: usize, property: String, verdict: &PropertyVerdict) -> Self {
-        let mut report = Self {
+impl DecidedProperty {
+    pub(super) fn of(
+        (system, number): (&TransitionSystem, usize),
+        property: String,
+        verdict: &PropertyVerdict,
+        empty: Option<String>,
+    ) -> Self {
+        let mut decided = Self {
             property,
             line: None,
             verdict: "proved",
+            how: String::new(),
             method: None,
             steps: None,
             invariant: None,
             with: Vec::new(),
-            empty: None,
+            empty,
             test: None,
+            shown: None,
             witness: None,
             physics: None,
         };
         match verdict {
             PropertyVerdict::Proved(InductiveProof::Steps { steps, together }) => {
-                (report.method, report.steps) = (Some("induction"), Some(*steps));
-                report.with = together.iter().copied().filter(|&other| other != number).collect();
+                (decided.method, decided.steps) = (Some("induction"), Some(*steps));
+                decided.with = together.iter().copied().filter(|&other| other != number).collect();
             }
             PropertyVerdict::Proved(InductiveProof::Invariant { clauses, given }) => {
                 let clause = |clause: &Clause| {
@@ -74,18 +86,19 @@ impl PropertyReport {
                     };
                     clause.iter().map(literal).collect::<Vec<_>>().join(" or ")
                 };
-                (report.method, report.invariant) = (Some("invariant"), Some(clauses.iter().map(clause).collect()));
-                report.with = given.iter().copied().collect();
+                (decided.method, decided.invariant) = (Some("invariant"), Some(clauses.iter().map(clause).collect()));
+                decided.with = given.iter().copied().collect();
             }
             PropertyVerdict::Refuted(run) => {
-                (report.verdict, report.steps) = ("refuted", Some(run.inputs.len()));
+                (decided.verdict, decided.steps) = ("refuted", Some(run.inputs.len()));
             }
-            PropertyVerdict::Undecided { steps } => (report.verdict, report.steps) = ("undecided", Some(*steps)),
+            PropertyVerdict::Undecided { steps } => (decided.verdict, decided.steps) = ("undecided", Some(*steps)),
         }
-        report
+        decided.how = decided.words();
+        decided
     }
 
-    pub fn how(&self) -> String {
+    fn words(&self) -> String {
         let steps = counted(self.steps.unwrap_or(0), "step");
         if let Some(why) = &self.empty {
             return format!("but empty: {why}");
@@ -99,7 +112,7 @@ impl PropertyReport {
     }
 
     pub fn text(&self) -> String {
-        let mut text = format!("    {:<9}  {}  ({})\n", self.verdict, self.property, self.how());
+        let mut text = format!("    {:<9}  {}  ({})\n", self.verdict, self.property, self.how);
         for shown in self.test.iter().flat_map(|test| test.lines()) {
             let _ = if shown.is_empty() { writeln!(text) } else { writeln!(text, "        {shown}") };
         }
