@@ -11,7 +11,7 @@ use crate::message::{
 };
 use crate::refusal::Refused;
 use crate::runner::{LoadingSwarm, RunningSwarm};
-use crate::script::GivenInputs;
+use crate::script::{GivenInputs, chosen_test};
 use crate::shared_cycle::SharedCycles;
 use crate::shell::Shell;
 use crate::site::SCHEME;
@@ -21,13 +21,10 @@ use nbc_base::diag::counted;
 use nbc_base::model::{CircuitTest, GroundProfile, Instance, Stimulation, TestRow, Value as PortValue};
 use nbc_circuit::properties::SearchBudget;
 use nbc_circuit::waves::WaveMachine;
-use nbc_circuit::{Effort, NetId, Netlist};
+use nbc_circuit::{NetId, Netlist};
 use nbc_session::report::{self, Looks};
 use nbc_session::{Checked, Choice, CompileOptions, Compiled, Session, TestOptions};
 use nbc_swarm::{Assembly, Level, LiveSwarm, Recorded, StimulusSource, SwarmTrace, TestVerdict};
-
-/// Circuits with more gates are mapped with little effort.
-const MANY_GATES: usize = 500;
 
 pub(super) fn program(checked: &Checked) -> ProgramReport {
     let own = checked.program.circuits.iter().filter_map(|circuit| {
@@ -92,15 +89,8 @@ pub(super) fn chosen(checked: &Checked, choice: &Choice, job: &Job) -> Result<(I
     let circuit = checked.circuit(choice)?;
     let first = || checked.swarms(&circuit).first().map(|swarm| swarm.name.clone());
     let swarm = choice.swarm.clone().or_else(first);
-    let options = CompileOptions { swarm, ..options(checked, &circuit, job) };
+    let options = CompileOptions { swarm, ..job.options_for(checked, &circuit) };
     Ok((circuit, options))
-}
-
-/// The robots of a large circuit are there after seconds, not minutes, and hardly more of them.
-pub(super) fn options(checked: &Checked, circuit: &Instance, job: &Job) -> CompileOptions {
-    let options = job.options();
-    let effort = if checked.gates(circuit) > MANY_GATES { Effort::Fast } else { options.effort };
-    CompileOptions { effort, ..options }
 }
 
 /// A compiled circuit as a swarm that runs through some cycles before it is shown.
@@ -214,12 +204,6 @@ fn robot(
     }
 }
 
-/// The test of a number, or else the last one.
-pub(super) fn chosen_test(checked: &Checked, number: Option<usize>) -> Result<&CircuitTest, Refused> {
-    let tests = &checked.program.tests;
-    number.map_or_else(|| tests.last(), |number| tests.get(number)).ok_or(Refused::NoTest)
-}
-
 pub(super) fn testing(
     session: Session,
     open: impl FnOnce(&Job) -> Result<Arc<Checked>, Refused> + Send + 'static,
@@ -231,7 +215,7 @@ pub(super) fn testing(
         let Some(run) = &mut running else {
             let checked = open.take().expect("it is opened once")(job)?;
             let test = chosen_test(&checked, test)?;
-            let compile = options(&checked, &test.circuit, job);
+            let compile = job.options_for(&checked, &test.circuit);
             let options = TestOptions { level: Some(level), compile };
             running = Some(session.begin_test(&checked, test, &options)?);
             return Ok(PortionEnd::More);
