@@ -124,7 +124,7 @@ impl RunArguments {
         let source = self.file.to_string_lossy();
         let result = result(&source, &drawn);
         let json = serde_json::to_string_pretty(&Document::new(Schema::Run, &result))
-            .expect("a result has nothing that JSON cannot say")
+            .expect("a result can be written as JSON")
             + "\n";
         write(&folder.join("result.json"), json.as_bytes())?;
         let page = folder.join("report.html");

@@ -92,7 +92,7 @@ fn every_command_ends_within_a_second_of_a_signal() {
 fn too_late(bench: &Bench, arguments: &[&str], word: &str) -> Option<String> {
     let command = &mut bench.command(arguments);
     let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-    thread::sleep(Duration::from_millis(800));
+    thread::sleep(Duration::from_millis(500));
     let before = child.try_wait().unwrap();
     if before.is_none() {
         signal(word, child.id());

@@ -1,4 +1,4 @@
-//! What the divisions of a circuit are called: by the names that the source gives to nets and calls.
+//! Names of the divisions of a circuit, from the nets and calls of its source.
 
 use std::cmp::Reverse;
 use std::collections::btree_map::Entry;
@@ -8,12 +8,12 @@ use nbc_circuit::{NetId, Netlist};
 
 const LETTERS: usize = 16;
 
-/// The name of a circuit as the source has it: one of the prelude has another if the source declares the same.
+/// The name of a circuit in the source. A shipped circuit is renamed if the source declares one of that name.
 pub fn written(circuit: &str) -> &str {
     circuit.strip_prefix("prelude.").unwrap_or(circuit)
 }
 
-/// The name of a call. A call without a name in the source gets a numbered one, and is called as its circuit.
+/// The name of a call. An unnamed call gets the name of its circuit.
 pub fn call_name<'a>(name: &'a str, circuit: &'a str) -> &'a str {
     let number = name.strip_prefix(circuit).and_then(|rest| rest.strip_prefix('_'));
     let is_numbered = number.is_some_and(|number| !number.is_empty() && number.bytes().all(|c| c.is_ascii_digit()));

@@ -7,7 +7,7 @@ use crate::grid::Grid;
 use crate::lattice::{CORNERS, corner};
 use nbc_base::model::GroundProfile;
 
-/// Voxels that never move. Each fills a cell of the world, which is counted in voxels from its lower left corner.
+/// Voxels that never move. Each fills a cell of the world, numbered from the lower left corner.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Terrain {
     /// Those at a surface, by object and then in reading order.

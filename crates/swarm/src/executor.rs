@@ -101,7 +101,7 @@ mod tests {
     use nbc_base::model::{Body, Evolution, Palette, SearchObjective};
 
     fn evaluations(objective: SearchObjective) -> Vec<Task> {
-        let evolution = Evolution { objective, ..crate::evolve::tests::evolution() };
+        let evolution = Evolution { objective, width: 2, height: 3, ..crate::evolve::tests::evolution() };
         let (search, protocol) = (Search::new(&evolution, 3), Arc::new(EvaluationProtocol::of(&evolution)));
         let task = |candidate| Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&search, candidate));
         search.ask().iter().take(2).map(task).collect()

@@ -187,14 +187,15 @@ mod tests {
     #[test]
     fn the_work_reported_is_the_work_announced() {
         // Without errors at the first clock, which takes the shortest time.
-        let candidates = [&["33", "34"], &["33", "43"], &["44", "34"]].map(|rows| candidate(rows, 1.0));
+        let selection = Selection { finalists: 1, ..SELECTION };
+        let candidates = [&["33", "34"], &["33", "43"]].map(|rows| candidate(rows, 1.0));
         let done = Cell::new(0);
         let observe = |more| done.set(done.get() + more);
-        SELECTION.select(&LocalExecutor::default(), 0, "RRRR".parse().unwrap(), &candidates, &observe);
-        assert_eq!(done.get(), SELECTION.cost(candidates.len()));
-        let found = SELECTION
+        selection.select(&LocalExecutor::default(), 0, "RRRR".parse().unwrap(), &candidates, &observe);
+        assert_eq!(done.get(), selection.cost(candidates.len()));
+        let found = selection
             .select(&LocalExecutor::default(), 0, "RRRR".parse().unwrap(), &[], &|_| panic!("there is no work"));
-        assert_eq!((found, SELECTION.cost(0)), (Some(Selected::Missing), 0));
+        assert_eq!((found, selection.cost(0)), (Some(Selected::Missing), 0));
     }
 
     #[test]

@@ -157,7 +157,7 @@ fn a_file_that_is_taken_is_kept_at_the_address_of_the_answer() {
 #[test]
 fn work_is_done_in_portions_between_which_it_can_be_cancelled() {
     let mut tab = Tab::new();
-    let evolve = json!({ "id": 7, "do": "evolve", "body": null, "box": [3, 3], "generations": 1000, "seed": 1 });
+    let evolve = json!({ "id": 7, "do": "evolve", "body": null, "box": [2, 2], "generations": 1000, "seed": 1 });
     tab.visit.receive(&evolve.to_string(), tab.now);
     (0..4).for_each(|_| tab.shell.advance());
     let seen = tab.texts();

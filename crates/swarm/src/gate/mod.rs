@@ -262,13 +262,14 @@ mod tests {
 
     #[test]
     fn a_body_is_scored_as_the_nearest_behavior_that_is_asked_for() {
-        let evolution = Evolution { objective: SearchObjective::Wave, ..crate::evolve::tests::evolution() };
+        let evolution =
+            Evolution { objective: SearchObjective::Wave, width: 2, height: 3, ..crate::evolve::tests::evolution() };
         let task = |candidate: &Candidate| EvaluationTask {
             body: candidate.body.clone(),
             rivals: Rivals::none(2),
             expected: None,
         };
-        let tasks: Vec<EvaluationTask> = Search::new(&evolution, 5).ask().iter().take(3).map(task).collect();
+        let tasks: Vec<EvaluationTask> = Search::new(&evolution, 5).ask().iter().take(2).map(task).collect();
         let asked = ["LRRL", "RLLR"].map(|behavior| behavior.parse::<Behavior>().unwrap());
         let scores = |behaviors: &[Behavior]| {
             let protocol = EvaluationProtocol { behaviors: behaviors.to_vec(), ..EvaluationProtocol::of(&evolution) };
