@@ -79,7 +79,7 @@ export class Keeping {
       replace,
     };
     const { probe } = this.design();
-    const errors = probe !== null && "character" in probe ? (probe.character?.errors ?? 0) : 0;
+    const errors = probe !== null && "character" in probe ? (probe.character?.error_rate ?? 0) : 0;
     const warning = errors > 0 ? `It errs in ${percent(errors)} of its switches, so a circuit of it may, too. ` : "";
     try {
       const { path, use } = await this.connection.request("keep", fields, { signal: work.signal });
