@@ -151,7 +151,7 @@ impl Job {
         Simulator::monitored(self.monitor.clone())
     }
 
-    /// The robots of a large circuit are there after seconds, not minutes, and hardly more of them.
+    /// Maps a large circuit with little effort: seconds instead of minutes, for a few more robots.
     pub(super) fn options_for(&self, checked: &Checked, circuit: &Instance) -> CompileOptions {
         let effort = if checked.gates(circuit) > MANY_GATES { Effort::Fast } else { self.making.effort };
         CompileOptions { effort, ..self.options() }
