@@ -163,11 +163,13 @@ impl SwarmOutcome<'_> {
         let (table, fault) = match self {
             Self::Test(verdict) => {
                 let rows = verdict.rows.iter().map(|row| (row, row.passed));
-                (TruthTable::of_test(verdict, rows), verdict.fault())
+                (TruthTable::of_test(verdict, rows), verdict.fault.clone())
             }
-            Self::Simulation(result) => (TruthTable::of_simulation(result), result.fault.as_ref()),
+            Self::Simulation(result) => {
+                (TruthTable::of_simulation(result), result.fault.as_ref().map(ToString::to_string))
+            }
         };
-        let fault = fault.map(|fault| format!("<p class=\"fail\">{}</p>\n", escape(&fault.to_string())));
+        let fault = fault.map(|fault| format!("<p class=\"fail\">{}</p>\n", escape(&fault)));
         table.html() + &fault.unwrap_or_default()
     }
 }
