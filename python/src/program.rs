@@ -268,29 +268,22 @@ impl Program {
 }
 
 pub fn read_objective(word: &str) -> PyResult<MappingObjective> {
-    match word {
-        "area" => Ok(MappingObjective::Area),
-        "delay" => Ok(MappingObjective::Delay),
-        "margin" => Ok(MappingObjective::Margin),
-        "sturdy" => Ok(MappingObjective::Sturdy),
-        word => Err(bad_word("objective", word, &["area", "delay", "margin", "sturdy"])),
-    }
+    use MappingObjective::{Area, Delay, Margin, Sturdy};
+    read_word("objective", word, &[("area", Area), ("delay", Delay), ("margin", Margin), ("sturdy", Sturdy)])
 }
 
 pub fn read_effort(word: &str) -> PyResult<Effort> {
-    match word {
-        "fast" => Ok(Effort::Fast),
-        "normal" => Ok(Effort::Normal),
-        word => Err(bad_word("effort", word, &["fast", "normal"])),
-    }
+    read_word("effort", word, &[("fast", Effort::Fast), ("normal", Effort::Normal)])
 }
 
 fn read_level(word: &str) -> PyResult<Level> {
-    match word {
-        "logic" => Ok(Level::Logic),
-        "physics" => Ok(Level::Physics),
-        word => Err(bad_word("level", word, &["logic", "physics"])),
-    }
+    read_word("level", word, &[Level::Logic, Level::Physics].map(|level| (level.word(), level)))
+}
+
+fn read_word<T: Copy>(what: &str, word: &str, known: &[(&str, T)]) -> PyResult<T> {
+    let found = known.iter().find(|(name, _)| *name == word);
+    let words: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
+    found.map(|(_, value)| *value).ok_or_else(|| bad_word(what, word, &words))
 }
 
 #[pyfunction]

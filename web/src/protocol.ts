@@ -582,6 +582,7 @@ export type Request = { id: number } & ({ do: "hello" }
   | { do: "replay", path: string, row: number, swarm?: string | null, test: ChosenTest, world?: string | null }
   | { bits: string, do: "inputs" }
   | { bit: number, do: "clock", half?: number | null }
+  | { do: "settle", rows: Array<string> }
   | { do: "run", speed?: number | null }
   | { do: "pause" }
   | { cycles: number, do: "step" }
@@ -717,6 +718,7 @@ export type ServerMessage = { id: number } & ({ ok: Greeting, to: "hello" }
   | { ok: ProgramReport, to: "program" }
   | { ok: SwarmAnswer, to: "compile" }
   | { ok: SwarmAnswer, to: "replay" }
+  | { ok: SettledOutputs, to: "settle" }
   | { ok: TestAnswer, to: "test" }
   | { ok: DecidedClaim, to: "prove" }
   | { ok: RobotCards, to: "robots" }
@@ -729,6 +731,11 @@ export type ServerMessage = { id: number } & ({ ok: Greeting, to: "hello" }
   | { id: number, ok: Nothing }
   | { error: Refusal, id: number }
   | { id: number, progress: [number, number] } | PlayEvent;
+
+export type SettledOutputs = {
+  /** For each row of inputs; none of a swarm with a state. */
+  outputs: Array<string> | null,
+};
 
 /** The severity of a diagnostic. */
 export type Severity = "error" | "warning";

@@ -139,21 +139,13 @@ pub(super) fn keep(request: &KeepRequest, files: &PageFiles, is_shared: bool, jo
 fn robot_file(name: &str, body: Body, job: &Job) -> Result<String, Refused> {
     let stopped = |fault: Fault| job.check().err().unwrap_or_else(|| Refused::fault(fault));
     let measured = measure(&job.simulator(), &body).map_err(stopped)?;
-    let provenance = Provenance {
-        program: nbc_base::PROGRAM.to_owned(),
-        version: nbc_base::VERSION.to_owned(),
-        evolution: "play".to_owned(),
-        seed: 0,
-        generation: 0,
-        evaluations: 0,
-    };
     let robot = Robot {
         name: name.to_owned(),
         behavior: measured.behavior,
         body,
         displacement: measured.displacement,
         character: measured.character,
-        provenance,
+        provenance: Provenance::unevolved("play"),
         genotype: None,
     };
     Ok(store::print_robot(&robot))

@@ -264,13 +264,11 @@ fn port_waves(trace: &SwarmTrace) -> [Vec<WaveRow>; 2] {
 }
 
 pub fn draw_logic_page(source: &str, verdicts: &[&TestVerdict]) -> String {
-    let passed = verdicts.iter().filter(|verdict| verdict.passed).count();
-    let all = verdicts.len();
-    let word = if passed == all { "pass" } else { "FAIL" };
+    let tests: Vec<SwarmOutcome<'_>> = verdicts.iter().map(|verdict| SwarmOutcome::Test(verdict)).collect();
     Html {
         heading: source,
-        passed: passed == all,
-        verdict: format!("{word}: {passed} of {} passed", counted(all, "test")),
+        passed: tests.iter().all(|test| test.passed()),
+        verdict: heading(&tests, &[]),
         body: verdicts.iter().map(|verdict| logic_section(verdict)).collect(),
         script: None,
     }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{RobotFault, WeakRobot, wording};
+use crate::{RobotFault, WeakRobot};
 use nbc_base::model::{CircuitTest, Column, RowSource, Value};
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -137,13 +137,6 @@ pub struct RowVerdict {
     /// How it failed, in lines; none if it passed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub words: Option<String>,
-}
-
-impl RowVerdict {
-    /// `row 3: a=4'd9 b=0 | q=1, expected 0`, then the wrong robots and the nearest fix, a line each.
-    pub fn describe(&self, inputs: &[Column], outputs: &[Column]) -> String {
-        wording::failed_row(self, inputs, outputs)
-    }
 }
 
 /// A robot whose output was not its function of its stimuli.

@@ -1,6 +1,6 @@
 """The native half; see the modules that use it."""
 
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, TypedDict, Union
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -17,50 +17,7 @@ _Schedule = Union[str, Sequence[Tuple[Union[str, List[List[float]]], int]]]
 _Report = Optional[Callable[[int, int], Any]]
 _ArchiveOnAxes = Tuple[Dict[str, Any], List[Tuple[str, int]], str]
 _Options = Mapping[str, Optional[str]]
-
-class _Trials(TypedDict):
-    codes: _Codes
-    shapes: _Shapes
-    materials: str
-    schedule: _Schedule
-    world_width: int
-    start_x: Optional[int]
-    record_com: bool
-    stride: Optional[int]
-
-class _Choosing(TypedDict):
-    tries: int
-    finalists: int
-    max_error: float
-    wide_margin: float
-
-class _Sampling(TypedDict):
-    vary: Sequence[str]
-    times: Sequence[float]
-    worlds: int
-    seed: int
-
-class _Learning(TypedDict):
-    name: str
-    file: str
-    text: Optional[str]
-    output: Optional[str]
-    target: Sequence[str]
-    gates: int
-    hold_out: float
-    group: int
-    seed: int
-
-class _Synthesizing(TypedDict):
-    cells: Sequence[str]
-    library: Optional[str]
-    objective: str
-    effort: str
-    top: Optional[str]
-    parameters: Sequence[Tuple[str, str]]
-    clock: Optional[str]
-    expand: bool
-    what_if: Sequence[str]
+_Arguments = Mapping[str, Any]
 
 class Candidates:
     generation: int
@@ -117,11 +74,11 @@ class Program:
         compiling: _Options,
         progress: _Report,
     ) -> str: ...
-    def yields(self, tests: Sequence[int], sampling: _Sampling, compiling: _Options, progress: _Report) -> str: ...
+    def yields(self, tests: Sequence[int], sampling: _Arguments, compiling: _Options, progress: _Report) -> str: ...
     def harden(
         self,
         circuit: Optional[str],
-        sampling: _Sampling,
+        sampling: _Arguments,
         least_yield: float,
         compiling: _Options,
         progress: _Report,
@@ -174,7 +131,7 @@ class Search:
     def step(self) -> None: ...
     def summary(self) -> str: ...
     def archive(self) -> _ArchiveOnAxes: ...
-    def robots(self, behaviors: Sequence[str], choosing: _Choosing, progress: _Report) -> str: ...
+    def robots(self, behaviors: Sequence[str], choosing: _Arguments, progress: _Report) -> str: ...
     def close(self) -> None: ...
 
 class Swarm:
@@ -189,7 +146,7 @@ def draw_body(title: str, codes: _Codes, shapes: _Shapes, materials: str, safe_c
 def evaluate(codes: _Codes, shapes: _Shapes, evolution: Evolution, progress: _Report) -> Dict[str, Any]: ...
 def invalid_bodies(codes: _Codes, shapes: _Shapes, materials: str) -> List[str]: ...
 def paper_materials() -> str: ...
-def learn(arguments: _Learning, progress: _Report) -> str: ...
+def learn(arguments: _Arguments, progress: _Report) -> str: ...
 def most_threads() -> Tuple[int, int]: ...
 def nearest(word: str, known: Sequence[str]) -> Optional[str]: ...
 def program(arguments: Sequence[str]) -> int: ...
@@ -198,7 +155,7 @@ def read_schedule(schedule: _Schedule) -> List[Tuple[str, int]]: ...
 def robots(library: str) -> str: ...
 def verify(library: str, progress: _Report) -> List[Tuple[str, List[str]]]: ...
 def set_threads(threads: int) -> None: ...
-def simulate(trials: _Trials, progress: _Report) -> Dict[str, Any]: ...
-def synthesize(files: Sequence[str], output: Optional[str], synthesizing: _Synthesizing) -> str: ...
+def simulate(trials: _Arguments, progress: _Report) -> Dict[str, Any]: ...
+def synthesize(files: Sequence[str], output: Optional[str], synthesizing: _Arguments) -> str: ...
 def three_materials() -> str: ...
 def write_file(path: str, text: str) -> None: ...

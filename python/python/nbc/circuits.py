@@ -625,7 +625,7 @@ class Swarm(Closing):
     def __init__(self, compiled: Compiled) -> None:
         self.compiled = compiled
         """The compiled circuit."""
-        self._native = compiled._native.swarm()
+        self._native: _nbc.Swarm = compiled._native.swarm()
 
     def step(self, values: Optional[Row] = None, *, cycles: int = 1, **ports: int) -> Dict[str, int]:
         """Simulates cycles with these values on the input ports, and returns those of the output ports.
@@ -769,7 +769,7 @@ def loads(text: str, path: str = "program.nb") -> Program:
     return Program(path, text)
 
 
-def _sampling(vary: Sequence[str], times: Sequence[float], worlds: int, seed: int) -> _nbc._Sampling:
+def _sampling(vary: Sequence[str], times: Sequence[float], worlds: int, seed: int) -> Dict[str, Any]:
     """A sample of worlds for the native half."""
     if not vary or not times:
         raise ValueError("vary and times need a value at least")

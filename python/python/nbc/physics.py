@@ -110,7 +110,7 @@ def simulate(
         raise ValueError(f"record is {record!r}, expected 'com', 'poses' or None{meant(record, RECORDS)}")
     every = count(stride, "stride", least=1)
     packed = pack(bodies, materials)
-    trials: _nbc._Trials = {
+    trials = {
         "codes": packed.codes,
         "shapes": packed.shapes,
         "materials": packed.materials,
@@ -211,7 +211,7 @@ class Flock(Closing):
         start = None if start_x is None else count(start_x, "start_x")
         width = count(world_width, "world_width")
         self._source = _Source(packed.codes, packed.shapes, packed.materials, width, start)
-        self._native = _nbc.Flock(*self._source)
+        self._native: _nbc.Flock = _nbc.Flock(*self._source)
         self._last: Optional[_Spell] = None
         self._lock = threading.RLock()
 
