@@ -19,7 +19,7 @@ pub struct Sampling {
 impl Sampling {
     /// How much the worlds vary; each is a sample of its own.
     pub fn vary(&self) -> PyResult<Vec<Variation>> {
-        self.vary.iter().map(|text| text.parse().map_err(|error| bad_value(error.to_string()))).collect()
+        self.vary.iter().map(|text| text.parse().map_err(|error: String| bad_value(error))).collect()
     }
 }
 
