@@ -46,12 +46,15 @@ async function page() {
   writeFileSync("dist/report/report.css", await bundle(sheet, "src/style/report.css"));
 }
 
+/** What stands in a live page for its program: the page that makes one has that already. */
+const PLACE = "{{program}}";
+
 /**
- * The page of a browser tab as a file of its own: only the sources of a circuit are missing. It contains its script and
+ * The page of a browser tab as a file of its own: only the program and the sources of a circuit are missing. It contains its script and
  * style, both packed, and its policy permits these alone: nothing can be loaded, and nothing that the program adds can
  * be a script.
  */
-async function livePage(packed) {
+async function livePage() {
   const inside = {
     style: await bundle(sheet, "src/style/app.css"),
     script: await bundle(script, "src/tab/alone.ts"),
@@ -64,7 +67,7 @@ async function livePage(packed) {
     data: [
       inert("sources", "application/json"),
       inert("page", "application/octet-stream", page.toString("base64")),
-      inert("program", "application/octet-stream", packed.toString("base64")),
+      inert("program", "application/octet-stream", PLACE),
     ].join("\n"),
   };
   return alone(parts, {
@@ -148,13 +151,17 @@ async function tab(program, folder) {
   const made = async options =>
     path.basename(Object.keys((await build({ ...options, ...hashed })).metafile.outputs)[0]);
   const worker = await made({ ...script, entryPoints: ["src/tab/worker.ts"] });
-  const define = { PROGRAM: JSON.stringify({ name, bytes: packed.length, worker }) };
+  const live = await livePage();
+  const template = `alone-${digest(live)}.html`;
+  writeFileSync(path.join(folder, template), live);
+  // For a program that is built with it.
+  writeFileSync(path.join(folder, "alone.html"), live.replace(PLACE, packed.toString("base64")));
+  const define = { PROGRAM: JSON.stringify({ name, bytes: packed.length, worker, template }) };
   const app = await made({ ...script, define, entryPoints: { app: "src/tab/main.ts" } });
   const style = await made({ ...sheet, entryPoints: ["src/style/app.css"] });
-  writeFileSync(path.join(folder, "alone.html"), await livePage(packed));
   writeFileSync(path.join(folder, "index.html"), tabDocument({ "app.js": app, "app.css": style }));
   writeFileSync(path.join(folder, "NOTICES.txt"), readFileSync("dist/NOTICES.txt"));
-  const files = ["./", style, app, worker, name];
+  const files = ["./", style, app, worker, template, name];
   const version = digest(readFileSync(path.join(folder, "index.html")));
   const offline = { VERSION: JSON.stringify(version), FILES: JSON.stringify(files) };
   await build({ ...script, metafile: false, outdir: folder, define: offline, entryPoints: ["src/tab/offline.ts"] });

@@ -33,7 +33,7 @@ pub struct LearningArguments {
 }
 
 #[derive(Serialize)]
-struct LearnedCircuit {
+struct LearningResult {
     data: LearningReport,
     text: String,
     /// The circuit as a program.
@@ -44,7 +44,7 @@ struct LearnedCircuit {
 
 impl LearningArguments {
     /// Reads, learns and writes.
-    fn run(self, format: Option<CircuitFormat>, watch: &Watch) -> Result<Option<LearnedCircuit>, Diagnostics> {
+    fn run(self, format: Option<CircuitFormat>, watch: &Watch) -> Result<Option<LearningResult>, Diagnostics> {
         let started = Instant::now();
         let Self { name, file, text, output, target, gates, hold_out, group, seed } = self;
         let (sources, file) = match text {
@@ -84,7 +84,7 @@ impl LearningArguments {
         let source = written(CircuitFormat::Nb).ok().and_then(|bytes| String::from_utf8(bytes).ok());
         let picture = report.draw_confusion().ok().map(|svg| svg.finish());
         let text = report.text();
-        Ok(Some(LearnedCircuit { data: report, text, source, picture }))
+        Ok(Some(LearningResult { data: report, text, source, picture }))
     }
 }
 

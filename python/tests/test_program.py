@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
@@ -131,3 +132,16 @@ def test_a_closed_output_is_no_file_of_the_program(tmp_path):
     done = run(["sh", "-c", '"$@" new adder >&-', "sh", *NBC], tmp_path)
     assert (done.returncode, done.stderr) == (0, b"")
     assert "wrote" not in (tmp_path / "adder.nb").read_text()
+
+
+@pytest.mark.parametrize("words", [["test", "fails.nb", "--logic"], ["check", "fails.nb"], ["library", "list"]])
+def test_its_output_is_described_by_its_schema(words, tmp_path):
+    validator = pytest.importorskip("jsonschema").Draft202012Validator
+    schemas = {}
+    for path in (Path(__file__).parents[2] / "docs/schema").glob("*.json"):
+        schema = json.loads(path.read_text(encoding="utf-8"))
+        validator.check_schema(schema)
+        schemas[schema["$id"]] = schema
+    (tmp_path / "fails.nb").write_text(FAILS, encoding="utf-8")
+    found = json.loads(run([*NBC, *words, "--format", "json"], tmp_path).stdout)
+    validator(schemas[found["schema"]]).validate(found)

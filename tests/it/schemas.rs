@@ -37,10 +37,9 @@ fn bench() -> Bench {
 }
 
 #[test]
-fn every_schema_has_its_file_and_is_a_schema() {
+fn every_schema_has_its_file() {
     for found in Schema::ALL {
         let schema = schema(found.word());
-        jsonschema::draft202012::meta::validate(&schema).unwrap();
         assert_eq!(
             (&schema["$id"], &schema["properties"]["schema"]["const"]),
             (&found.id().into(), &found.id().into())
@@ -51,13 +50,13 @@ fn every_schema_has_its_file_and_is_a_schema() {
 
 #[test]
 fn a_schema_rejects_unknown_fields() {
-    let validator = jsonschema::draft202012::new(&schema("drawn")).unwrap();
+    let schema = schema("drawn");
     let drawn = json!({ "schema": "urn:nbc:drawn:1", "file": "a.svg", "kind": "sprite" });
-    assert!(validator.is_valid(&drawn));
+    assert_eq!(faults(&schema, &schema, &drawn), [] as [String; 0]);
     for (key, value) in [("more", Value::Null), ("file", 3.into()), ("schema", "urn:nbc:drawn:2".into())] {
         let mut other = drawn.clone();
         other[key] = value;
-        assert!(!validator.is_valid(&other), "{other}");
+        assert_ne!(faults(&schema, &schema, &other), [] as [String; 0], "{other}");
     }
 }
 

@@ -17,7 +17,7 @@ evolution short {
     objective:   gate
     descriptors: [voxels in 2 bins, active in 2 bins, class]
     batch:       12
-    generations: 3
+    generations: 2
 }
 evolution multiplexers { from: short, behaviors: [mux] }
 evolution rows { from: short, box: 3 x 1, batch: 6 }

@@ -3,6 +3,7 @@
 import { Connection, type ConnectionState } from "./connection";
 import { EditPanel } from "./editor/panel";
 import { LanguageServer } from "./editor/server";
+import { button } from "./element";
 import { Header } from "./header";
 import { Layout } from "./layout";
 import { ClassPanel } from "./learn/class";
@@ -44,7 +45,10 @@ export class App {
   #begun = false;
   #lessonsRead: Promise<void> = Promise.resolve();
 
-  constructor(ways: Ways, preferred: Choice | null = null) {
+  constructor(
+    private readonly ways: Ways,
+    preferred: Choice | null = null,
+  ) {
     ways.status.follow(text => this.#header.showStatus(text));
     this.#connection = new Connection(ways.live);
     this.#language = new LanguageServer(ways.language);
@@ -59,7 +63,7 @@ export class App {
     this.#lessons = new Lessons(this.#connection);
     this.#class = new ClassPanel(this.#connection);
     const take = new TakeAway(this.#connection, ways, this.#program, this.#swarm, () => this.#layout.tab.value);
-    const swarm = new SwarmPanel(this.#program, this.#swarm, take.host);
+    const swarm = new SwarmPanel(this.#program, this.#swarm);
     const reveal = (line: number): void => this.#edit.editor.reveal(line);
     const tests = new TestsPanel(
       this.#connection,
@@ -77,6 +81,7 @@ export class App {
     });
     const welcome = new Welcome(this.#swarm, () => this.#layout.show("learn"));
     this.#learn = new LearnPanel(
+      this.#connection,
       { program: this.#program, swarm: this.#swarm, tests, robots },
       this.#lessons,
       {
@@ -89,7 +94,11 @@ export class App {
       },
       this.#class,
     );
-    this.#header.add(welcome.help);
+    const open = button("Open", () => void this.#edit.pick(), {
+      "data-do": "programs",
+      title: "Your programs and examples",
+    });
+    this.#header.add(open, take.host, welcome.help);
     this.#layout = new Layout(
       this.#header.host,
       this.#edit.host,
@@ -115,11 +124,10 @@ export class App {
 
   start(): void {
     document.body.append(this.#layout.host, this.#paper);
-    this.#connection.state.on(state => this.#connected(state));
+    this.#connection.state.on(state => void this.#connected(state));
     this.#connection.open();
   }
 
-  /** Offers the version of the page that was deployed while this one is open. */
   offerReload(): void {
     this.#header.offer("A new version is there: reload", () => location.reload());
   }
@@ -131,7 +139,9 @@ export class App {
     }
     const hello = await this.#connection.request("hello", {});
     this.#program.hello = hello;
-    this.#header.showFolder(hello);
+    if (this.ways.folder === null) {
+      this.#header.showFolder(hello);
+    }
     this.#language.connect(hello.root);
     this.#lessonsRead = this.#lessons.load();
     void this.#class.open(hello.class);
@@ -166,7 +176,6 @@ export class App {
     return true;
   }
 
-  /** Shows the circuit, the inputs and the tab of a shared program. */
   #share(shared: SharedProgram): void {
     this.#swarm.propose(swarm => sharedBits(shared, swarm));
     const tab = this.#layout.tabs.find(({ name }) => name === shared.tab);
@@ -175,7 +184,6 @@ export class App {
     }
   }
 
-  /** Opens the program of an address to which the browser went back or forth. */
   async #follow(): Promise<void> {
     const named = decoded(location.hash.slice(1));
     const { path } = this.#program;
@@ -206,7 +214,6 @@ export class App {
     }
   }
 
-  /** Opens the step of an address; whether there is such a lesson. */
   async #openLesson(hello: Greeting, { name, step }: NonNullable<ReturnType<typeof lessonAddress>>): Promise<boolean> {
     const isKnown = this.#places.isKnown;
     await this.#lessonsRead;
@@ -251,14 +258,22 @@ export class App {
     const example = exampleNamed(hello, LATCH);
     const own = hello.files.some(file => file.path === example) ? { path: example } : { example };
     const origins: Origin[] = hello.file === null ? [own] : [{ path: hello.file }, own];
+    if (hello.file === null) {
+      // While `e` is off, the other switch of the latch changes nothing.
+      this.#swarm.propose(({ inputs }) =>
+        inputs.map(({ name, width }) => (name === "e" ? "1" : "0".repeat(width))).join(""),
+      );
+    }
     for (const origin of origins) {
       if (await this.#edit.open(origin)) {
+        if (named !== "") {
+          this.#edit.notices.show("open", `There is no ${named} here.`);
+        }
         return;
       }
     }
   }
 
-  /** Opens a file if it is still there, and else a program without a file. */
   async #openSaved(saved: string, path: string, text: string): Promise<void> {
     const files = await this.#connection.request("files", {});
     const isThere = files.some(file => file.path === saved);

@@ -31,12 +31,10 @@ export interface Colors extends Named {
 
 export const colors = new Observable<Colors>(readColors());
 
-/** Reads them again, after the theme has changed. */
 export function refreshColors(): void {
   colors.set(readColors());
 }
 
-/** What the style sheet has under a name. */
 export function styled(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }

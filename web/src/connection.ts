@@ -29,7 +29,6 @@ const LONGEST_WAIT = 4000;
 export class Connection {
   readonly state = new Observable<ConnectionState>("connecting");
   readonly events = new Observable<PlayEvent | null>(null);
-  /** Receives each frame. */
   onframe: (buffer: ArrayBuffer) => void = () => {};
   #line: Line | null = null;
   #pending = new Map<number, Pending>();

@@ -37,12 +37,10 @@ export function append(parent: Node, children: Child[]): void {
   }
 }
 
-/** Words with what is known of them. */
 export function factList(facts: [string, string][]): HTMLElement {
   return element("dl", {}, ...facts.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
 }
 
-/** Replaces all that is in `parent`. */
 export function fill(parent: Element, ...children: Child[]): void {
   parent.replaceChildren();
   append(parent, children);
@@ -75,7 +73,6 @@ export function iconButton(
   return made;
 }
 
-/** Exchanges the sign and the name of such a button. */
 export function changeIcon(made: HTMLButtonElement, icon: IconName, label: string): void {
   made.replaceChildren(drawIcon(icon));
   made.title = label;
@@ -97,7 +94,6 @@ const ICONS = {
   close: "M6.4 5L12 10.6 17.6 5 19 6.4 13.4 12l5.6 5.6-1.4 1.4-5.6-5.6L6.4 19 5 17.6l5.6-5.6L5 6.4z",
   theme: "M12 3a9 9 0 100 18zm0 0v18a9 9 0 000-18zM12 5a7 7 0 010 14z",
   projector: "M3 5h18v11H3zM5 7v7h14V7zM8 19h8v2H8z",
-  full: "M4 4h6v2H6v4H4zM14 4h6v6h-2V6h-4zM4 14h2v4h4v2H4zM18 14h2v6h-6v-2h4z",
   take: "M11 4h2v8h4l-5 5-5-5h4zM5 18h14v2H5z",
   crowd:
     "M4 4h4v4H4zM10 4h4v4h-4zM16 4h4v4h-4zM4 10h4v4H4zM10 10h4v4h-4zM16 10h4v4h-4zM4 16h4v4H4zM10 16h4v4h-4zM16 16h4v4h-4z",

@@ -1,6 +1,5 @@
 // The binary message that the server sends after a cycle.
 
-/** One cycle of the log. */
 export interface LoggedCycle {
   inputs: Uint8Array;
   robots: Uint8Array;
@@ -9,7 +8,6 @@ export interface LoggedCycle {
   places: Float32Array;
 }
 
-/** The poses of one robot in one cycle. */
 export interface Poses {
   points: number;
   /** Voxels from the robot's start, to which the points are relative. */
@@ -58,7 +56,6 @@ export function decodeFrame(buffer: ArrayBuffer, inputs: number, outputs: number
   return frame;
 }
 
-/** Whether a frame is about this swarm. */
 export function isFrameOf(buffer: ArrayBuffer, swarm: { number: number; robots: unknown[] }): boolean {
   const view = new DataView(buffer);
   return view.getUint8(21) === (swarm.number & 255) && view.getUint16(2, true) === swarm.robots.length;

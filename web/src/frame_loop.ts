@@ -10,7 +10,6 @@ export class FrameLoop {
   /** `pass` lets some seconds pass and draws; whether something still moves. */
   constructor(private readonly pass: (seconds: number) => boolean) {}
 
-  /** Draws at the next screen frame. */
   wake(): void {
     if (this.#asked === 0) {
       this.#asked = requestAnimationFrame(time => this.#frame(time));

@@ -44,7 +44,6 @@ const NAMES: [string, string, string][] = [
   ["LRRRRRRL", "gamble", "a, b, c not all equal"],
 ];
 
-/** What a function is called on the page. */
 export function gateName(name: string | null): string {
   return NAMES.find(([, id]) => id === name)?.[2] ?? name ?? "no gate";
 }
@@ -70,5 +69,4 @@ export function outputsOf(letters: string): number[] {
   return [...letters].map(letter => (letter === "R" ? 1 : 0));
 }
 
-/** The functions with names. */
 export const GATES = NAMES.map(([behavior, id, name]) => ({ behavior, id, name }));

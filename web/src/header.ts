@@ -52,15 +52,13 @@ export class Header {
     this.#folder.title = `nbc ${hello.version}, in the folder ${hello.folder}`;
   }
 
-  /** Shows a button for something that has come, once. */
   offer(label: string, run: () => void): void {
     this.#status.after(button(label, run, { class: "offer" }));
     this.offer = () => {};
   }
 
-  /** Adds a button before the others. */
-  add(made: HTMLElement): void {
-    this.host.querySelector(".space")?.after(made);
+  add(...made: HTMLElement[]): void {
+    this.host.querySelector(".space")?.after(...made);
   }
 
   showStatus(text: string): void {

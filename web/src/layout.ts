@@ -17,7 +17,6 @@ const WIDEST = 75;
 
 export class Layout {
   readonly host: HTMLElement;
-  /** The tab that is shown. */
   readonly tab = new Observable<TabName>("swarm");
   readonly #buttons = new Map<TabName, HTMLButtonElement>();
   readonly #main = element("main");
@@ -73,7 +72,6 @@ export class Layout {
     );
   }
 
-  /** Arrows go from tab to tab. */
   #press(event: KeyboardEvent): void {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (step !== undefined) {

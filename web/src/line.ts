@@ -14,23 +14,19 @@ export interface LineEvents {
   closed: () => void;
 }
 
-/** Begins a line. */
 export type Dial = (events: LineEvents) => Line;
 
-/** The files that a browser has, where there is no server. */
 export interface BrowserFolder {
   files: () => [path: string, text: string][];
   insert: (path: string, text: string) => void;
   remove: (path: string) => void;
 }
 
-/** The ways from a page to its program, wherever that is. */
 export interface Ways {
   live: Dial;
   language: Dial;
   /** The address of a file that an answer names. */
   file: (address: string) => string;
-  /** Loads what live exports are made of. */
   prepare: () => Promise<void>;
   /** What the page waits for, or what is unusual about its program; empty for nothing. */
   status: Observable<string>;
@@ -40,7 +36,6 @@ export interface Ways {
   isPublic: boolean;
 }
 
-/** The ways to the server of the page. */
 export const SERVER: Ways = {
   live: events => socket("live", events),
   language: events => socket("language", events),

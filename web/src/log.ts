@@ -6,7 +6,6 @@ import type { Frame, LoggedCycle } from "./frame";
 export class RunLog {
   first = 0;
   last = 0;
-  /** The number of `cycles[0]`. */
   #base = 1;
   #cycles: (LoggedCycle | undefined)[] = [];
 

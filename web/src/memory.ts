@@ -45,7 +45,6 @@ export function recall<T>(name: string): T | null {
   }
 }
 
-/** Remembers a value; null forgets it. */
 export function remember(name: string, value: unknown): void {
   rememberText(name, value === null ? null : JSON.stringify(value));
 }
@@ -70,7 +69,6 @@ export function rememberText(name: string, text: string | null): void {
   }
 }
 
-/** The names of all that is remembered. */
 export function recalled(): string[] {
   try {
     const names = Object.keys(localStorage).filter(name => name.startsWith(prefix));

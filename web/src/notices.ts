@@ -11,7 +11,6 @@ export class Notices {
   readonly host = element("div", { class: "notices", role: "status", "aria-live": "polite" });
   readonly #shown = new Map<string, HTMLElement>();
 
-  /** Shows a message in the place of the one with the same name. */
   show(name: string, text: string, actions: Action[] = []): void {
     this.hide(name);
     const choices = actions.map(({ label, run }) =>

@@ -39,7 +39,6 @@ export class Places {
     this.#tab = tab ?? this.#tab;
   }
 
-  /** Notes that the place where one is has another name. */
   rename(fragment: string): void {
     this.#replaces = true;
     this.note({ fragment });

@@ -2,7 +2,6 @@
 
 import type { Column } from "./protocol";
 
-/** One bit of a port. */
 export interface PortBit {
   port: Column;
   /** Within the port, 0 the least significant. */
@@ -17,7 +16,6 @@ export function totalWidth(ports: Column[]): number {
   return ports.reduce((sum, port) => sum + port.width, 0);
 }
 
-/** The index of a port's first bit among the bits of all ports. */
 export function offsetOf(ports: Column[], port: Column): number {
   return totalWidth(ports.slice(0, ports.indexOf(port)));
 }
@@ -32,7 +30,6 @@ export function bitsOf(ports: Column[]): PortBit[] {
   );
 }
 
-/** The number that these bits are. */
 export function toNumber(bits: Iterable<number>): bigint {
   let value = 0n;
   for (const bit of bits) {
@@ -41,12 +38,10 @@ export function toNumber(bits: Iterable<number>): bigint {
   return value;
 }
 
-/** The last `width` bits of a number. */
 export function toBits(value: bigint, width: number): number[] {
   return Array.from({ length: width }, (_, i) => Number((value >> BigInt(width - 1 - i)) & 1n));
 }
 
-/** The bits of `text` with one of them changed. */
 export function withBit(text: string, index: number, bit: number): string {
   return text.slice(0, index) + String(bit) + text.slice(index + 1);
 }

@@ -9,7 +9,6 @@ import type { Program } from "./program";
 import type { TestsPanel } from "./tests/panel";
 import { verdictTable } from "./tests/verdict";
 
-/** What is printed in the place of the page, filled in when it is printed. */
 export function paper(program: Program, swarm: LiveSwarm, tests: TestsPanel): HTMLElement {
   const host = element("section", { class: "paper", "aria-hidden": "true" });
   addEventListener("beforeprint", () =>

@@ -20,7 +20,6 @@ export type Stage =
   | { state: "errors"; count: number }
   | { state: "failed"; message: string; help: string | null };
 
-/** What a text must come from to be opened. */
 export type Origin = { path: string } | { example: string };
 
 const PAUSE = 350;
@@ -39,21 +38,17 @@ export class Program {
   stamp: string | null = null;
   /** What is shown first, on a page that was made of one circuit. */
   preferred: Choice | null = null;
-  /** Whether the swarm runs as soon as it is compiled. */
   plays = true;
   hello: Greeting | null = null;
   readonly drafts = new Drafts(() => this.folder);
   #text = "";
-  /** The text that `checked` is about. */
   #checkedText: string | null = null;
   #saved: string | null = null;
   /** Whether neither a file nor an example has the program, so that a reload needs its draft. */
   #alone = false;
   #compiled: { path: string; text: string; choice: string } | null = null;
-  /** The path of the program whose swarm is shown. */
   shown: string | null = null;
   #timer = 0;
-  /** Whether there was an edit that has not been checked. */
   #edited = false;
   #checking: Promise<void> = Promise.resolve();
   #compilation: AbortController | null = null;
@@ -68,7 +63,6 @@ export class Program {
     return this.#text;
   }
 
-  /** Whether `checked` is about the present text. */
   get isChecked(): boolean {
     return this.#checkedText === this.#text;
   }
@@ -133,7 +127,6 @@ export class Program {
     this.#alone = false;
   }
 
-  /** Takes the text after an edit. */
   edit(text: string): void {
     this.#text = text;
     const unsaved = text !== this.#saved;
@@ -172,7 +165,6 @@ export class Program {
     this.forked.set({ from, path });
   }
 
-  /** Whether a file, an example or a draft has this name. */
   isTaken(path: string): boolean {
     const { files = [], examples = [] } = this.hello ?? {};
     const isNamed = files.some(file => file.path === path) || examples.some(({ name }) => name === path);

@@ -270,6 +270,7 @@ export type LessonCheck = { is: "shows", values: { [key in string]: number } }
   | { is: "circuit", name: string }
   | { is: "tests-pass" }
   | { is: "tests-fail" }
+  | { is: "passes", test: string }
   | { is: "claims-proved" }
   | { is: "claims-refuted" }
   | { is: "tests-kept" }
@@ -285,6 +286,8 @@ export type LessonCount = "robots" | "cycles" | "niches" | "threads";
 export type LessonEntry = {
   /** The size of the best known circuit, where the learner makes one. */
   best: LessonGoal | null,
+  /** The chapter that begins with it. */
+  chapter: string | null,
   hints: Array<string>,
   /** The name of its file without the number and the ending. */
   name: string,
@@ -505,7 +508,7 @@ export type Request = { id: number } & ({ do: "hello" }
   | { do: "save", path: string, stamp?: string | null, text: string }
   | { do: "program", path: string, text: string }
   | { circuit: string, do: "compile", path: string, swarm?: string | null }
-  | { do: "test", level: Level, path: string, test: number }
+  | { do: "test", level: Level, path: string, test: ChosenTest }
   | { claim: number, do: "prove", path: string }
   | { do: "replay", path: string, row: number, swarm?: string | null, test: ChosenTest, world?: string | null }
   | { bits: string, do: "inputs" }

@@ -3,12 +3,9 @@
 import type { Finding, Nothing, Request, ServerMessage } from "./protocol";
 
 export type Verb = Request["do"];
-/** The fields of a request. */
 export type Fields<V extends Verb> = Omit<Extract<Request, { do: V }>, "id" | "do">;
-/** The result of a request. */
 export type Result<V extends Verb> = [Extract<ServerMessage, { to: V }>] extends [{ ok: infer R }] ? R : Nothing;
 
-/** An error that the server answered with. */
 export class RequestError extends Error {
   constructor(
     message: string,

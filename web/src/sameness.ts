@@ -13,7 +13,6 @@ function essence(text: string): string {
     .join("\n");
 }
 
-/** The line up to a `//` outside of quotes. */
 function withoutComment(line: string): string {
   return /^(?:[^"/]|"[^"]*"|\/(?!\/))*/.exec(line)?.[0] ?? line;
 }

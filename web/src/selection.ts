@@ -4,9 +4,7 @@ import { Observable } from "./observable";
 import type { StimulusSource } from "./protocol";
 
 export class Selection {
-  /** The source of the net that is pointed at. */
   readonly pointed = new Observable<StimulusSource | null>(null);
-  /** The robot that is followed alone. */
   readonly followed = new Observable<number | null>(null);
   /** The robots of the part of the circuit that is open; null are all. */
   readonly opened = new Observable<number[] | null>(null);

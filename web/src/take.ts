@@ -46,14 +46,14 @@ export class TakeAway {
     this.host = element(
       "details",
       { class: "menu take" },
-      element("summary", {}, "Take away"),
+      element("summary", {}, "Share"),
       element(
         "div",
         { class: "sheet" },
         links.host,
+        button("Live page (HTML, no server)", () => void this.#export(true), { "data-take": "live" }),
         button("Program (.nb)", () => this.#program(), { "data-take": "nb" }),
         button("Schematic (SVG)", () => this.#schematic(), { "data-take": "schematic" }),
-        button("Live page (HTML, no server)", () => void this.#export(true), { "data-take": "live" }),
         button("Recorded page of the tests (HTML)", () => void this.#export(false), { "data-take": "recorded" }),
         ...PICTURES.map(([what, label]) => button(label, () => void this.#take(what, label), { "data-take": what })),
         element("label", {}, "of the last ", this.#cycles, " cycles"),
@@ -116,7 +116,6 @@ export class TakeAway {
     }
   }
 
-  /** Makes a file, whose name follows from its ending. */
   async #make(
     label: string,
     named: (ending: string) => string,

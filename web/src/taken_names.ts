@@ -14,7 +14,6 @@ const KINDS: Record<TakeKind | "live" | "recorded" | "schematic", string> = {
   schematic: "schematic",
 };
 
-/** What a file is about. */
 export interface Taken {
   circuit: string;
   swarm: string | null;

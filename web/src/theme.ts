@@ -9,7 +9,6 @@ type Theme = "light" | "dark";
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 
-/** The size of type relative to the usual one. */
 export const enlargement = new Observable(1);
 
 export function prefersStillness(): boolean {

@@ -1,5 +1,6 @@
 // What one sees here: above the swarm until it is closed, and in the help with the keys.
 
+import { ask } from "./dialog";
 import { button, element, fill, iconButton } from "./element";
 import type { LiveSwarm } from "./live/swarm";
 import { recall, remember } from "./memory";
@@ -21,7 +22,6 @@ const KEYS: [string, string][] = [
 ];
 
 export class Welcome {
-  /** The strip above the swarm. */
   readonly strip = element("aside", { class: "welcome", "aria-label": "What one sees here", hidden: true });
   readonly help: HTMLButtonElement;
 
@@ -29,31 +29,26 @@ export class Welcome {
     private readonly swarm: LiveSwarm,
     private readonly learn: () => void,
   ) {
-    this.help = button("Help", () => this.#open(), { "data-do": "help" });
+    this.help = button("Help", () => void this.#open(), { "data-do": "help" });
     if (recall(KNOWN) === null) {
       this.swarm.definition.on(() => this.#show());
     }
   }
 
-  /** Four sentences, the last of which names a switch of the circuit. */
   #sentences(): HTMLElement {
     const definition = this.swarm.definition.value;
     const input = bitsOf(definition?.inputs ?? []).find(bit => bit.index !== definition?.waves?.clock);
-    const output = definition?.outputs[0];
     return element(
       "p",
       {},
-      "These are soft robots without a brain. ",
-      "A body reacts to two stimuli by its shape alone: it walks right for 1 and left for 0, so it is a logic gate. ",
-      "The motion of one robot is a stimulus of the next, and together they compute the program beside them. ",
-      ...(input === undefined || output === undefined
+      "Soft robots without a brain compute this program: each walks right for 1 and left for 0. Its shape decides how ",
+      "it reacts to the motion of others. ",
+      ...(input === undefined
         ? ["Press Run and see them walk."]
         : [
-            "Flip the switch ",
-            element("b", {}, input.name),
-            " and see which robots turn round, and whether ",
-            element("b", {}, output.name),
-            " changes.",
+            input.port.width === 1 ? "Flip the switch " : "Change ",
+            element("b", {}, input.port.name),
+            " and see which of them turn round.",
           ]),
     );
   }
@@ -66,37 +61,30 @@ export class Welcome {
     fill(
       this.strip,
       this.#sentences(),
-      button("Learn it in lessons", () => this.#close(this.learn), { class: "primary", "data-do": "lessons" }),
-      iconButton("close", "Close this", () => this.#close()),
+      button("Learn it in lessons", () => this.close(this.learn), { class: "primary", "data-do": "lessons" }),
+      iconButton("close", "Close this", () => this.close()),
     );
   }
 
-  /** Whoever begins a lesson has read enough. */
-  close(): void {
-    this.#close();
-  }
-
-  #close(then: () => void = () => {}): void {
+  close(then: () => void = () => {}): void {
     remember(KNOWN, true);
     this.strip.hidden = true;
     then();
   }
 
-  #open(): void {
-    const dialog = element(
-      "dialog",
-      { class: "help", "aria-label": "Help" },
+  async #open(): Promise<void> {
+    const learns = await ask<boolean>("Help", "help", close => [
       element(
         "header",
         {},
         element("h2", {}, "What one sees here"),
-        iconButton("close", "Close", () => dialog.close()),
+        iconButton("close", "Close", () => close(false)),
       ),
       this.#sentences(),
       element(
         "p",
         {},
-        button("Learn it in lessons", () => (dialog.close(), this.learn()), { class: "primary" }),
+        button("Learn it in lessons", () => close(true), { class: "primary" }),
       ),
       element("h3", {}, "Keys"),
       element(
@@ -104,10 +92,9 @@ export class Welcome {
         {},
         ...KEYS.flatMap(([keys, does]) => [element("dt", {}, element("kbd", {}, keys)), element("dd", {}, does)]),
       ),
-    );
-    dialog.onclose = () => dialog.remove();
-    dialog.onclick = event => event.target === dialog && dialog.close();
-    document.body.append(dialog);
-    dialog.showModal();
+    ]);
+    if (learns === true) {
+      this.learn();
+    }
   }
 }

@@ -21,11 +21,8 @@ test("two pages have a swarm each", async () => {
 });
 
 test("a lost program is noticed, and the page goes on where it was", async () => {
-  await typeProgram(
-    here.page,
-    LATCH.replace("d_latch(d, e)", "my_latch(d, e)").replace("test d_latch", "test my_latch"),
-  );
-  await here.page.waitForFunction(() => document.querySelector(".schematic").textContent.includes("my_latch"));
+  await typeProgram(here.page, LATCH.replaceAll("d_latch", "my_latch"));
+  await here.page.waitForFunction(() => document.querySelector(".crumbs").textContent.includes("my_latch"));
   await walking(here.page);
   await here.program.stop();
   await here.page.getByText("Connection lost").waitFor();

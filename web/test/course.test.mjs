@@ -57,7 +57,7 @@ test("a comment is no change of a program, and calls of standard circuits are no
   await compiled(here.page);
   await here.page.locator("#tab-tests").click();
   await here.page.locator("[data-do=all-logic]").click();
-  await here.page.getByText("there is calls of standard circuits").waitFor();
+  await here.page.getByText("calls of standard circuits are there").waitFor();
   assert.equal(await here.page.locator('.strip li[data-done="true"]').count(), 0);
   assert.equal(await here.page.locator(".strip .score").count(), 0);
   await begin("counter");
@@ -70,6 +70,24 @@ test("a comment is no change of a program, and calls of standard circuits are no
   await here.page.getByText("it is still that of the lesson").waitFor();
   assert.equal(await here.page.locator('.strip .steps li:nth-child(2)[data-done="true"]').count(), 0);
   await here.page.locator("#tab-learn").click();
+});
+
+test("a counter that still shows 3 does not pass by another test", async () => {
+  const lesson = lessonsOf(SHIPPED).find(({ name }) => name === "counter");
+  const page = await visit(`${here.program.address}#lesson/counter/2`);
+  await compiled(page);
+  const run = async text => {
+    await typeProgram(page, text);
+    await page.locator("#tab-tests").click();
+    await page.locator("[data-do=all-logic]").click();
+    await page.getByText("✓ passes as logic").waitFor();
+  };
+  await run(lesson.program.replace("counts to three", "counts to two"));
+  await page.getByText(/count is 3, not 0/).waitFor();
+  assert.equal(await page.locator('.strip .steps li[data-done="true"]').count(), 0);
+  await run(lesson.steps[1].program);
+  await page.locator('.strip .steps li[data-done="true"]').waitFor();
+  await page.leave();
 });
 
 test("a step that does not count says what it still needs", async () => {

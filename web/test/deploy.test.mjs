@@ -24,7 +24,7 @@ function version(number) {
   const hashed = /-\w+(?=\.(js|css|bin)$)/;
   const names = readdirSync(folder).filter(name => hashed.test(name));
   names.forEach(name => renameSync(path.join(folder, name), path.join(folder, name.replace(hashed, `-V${number}`))));
-  for (const name of readdirSync(folder).filter(name => /\.(js|html)$/.test(name) && name !== "alone.html")) {
+  for (const name of readdirSync(folder).filter(name => /\.(js|html)$/.test(name) && !name.startsWith("alone"))) {
     const file = path.join(folder, name);
     let text = readFileSync(file, "utf8").replace(/nbc-[0-9a-f]{16}/g, `nbc-${number}`);
     names.forEach(hash => (text = text.replaceAll(hash, hash.replace(hashed, `-V${number}`))));
@@ -100,6 +100,20 @@ test("an open tab says that a new version is there, and goes on until it is load
   await page.getByText("A new version is there").click();
   await page.waitForFunction(() => document.documentElement.dataset.version === "2");
   await ready(page);
+  await page.leave();
+});
+
+test("without a network the page opens, and live pages can be made", { skip }, async () => {
+  const page = await visit(site.address);
+  await controlled(page);
+  await page.waitForFunction(async () => (await caches.keys()).length === 1);
+  await page.context().setOffline(true);
+  await page.reload();
+  await walking(page);
+  await page.locator(".take summary").click();
+  const coming = page.waitForEvent("download");
+  await page.locator('[data-take="live"]').click();
+  assert.ok(readFileSync(await (await coming).path()).length > 2_000_000);
   await page.leave();
 });
 

@@ -41,6 +41,15 @@ test("a mistake is shown at its place, and the swarm follows its fix", async () 
   );
 });
 
+test("a line after an open brace is further in", async () => {
+  await here.page.locator(".cm-content").click();
+  await here.page.keyboard.press("Control+End");
+  await here.page.keyboard.type("\ncircuit more(a) -> (b) {\nb = a");
+  const lines = await here.page.locator(".cm-line").allTextContents();
+  assert.deepEqual(lines.slice(-3), ["circuit more(a) -> (b) {", "    b = a", "}"]);
+  await typeProgram(here.page, GATE.replace("a and b", "a nor b"));
+});
+
 test("nothing is written until it is saved", async () => {
   assert.equal(await files.read("gate.nb"), GATE);
   await here.page.locator('.file[data-unsaved="true"]').waitFor();

@@ -202,6 +202,9 @@ test("a program from a disk is opened, and not inserted into the present one", a
   await page.locator("[data-do=import]").setInputFiles([chosen]);
   await shows(page, "chosen.nb");
   await has(page, "q = a xor b");
+  await drop(page, [["un\u200bseen.nb", gate("or")]]);
+  await page.getByText("its name has invisible characters").waitFor();
+  await page.keyboard.press("Escape");
   // A file of another kind is where programs find it, or the page says where to put it.
   await drop(page, [
     ["rows.csv", "a,b,q\n0,0,1\n"],

@@ -16,7 +16,6 @@ test("the page opens with the file, compiled and walking", async () => {
     await here.page.locator(".swarm .status").first().textContent(),
     /^5 robots, settles within \d+ cycles$/,
   );
-  assert.ok(await here.page.locator(".hint").isVisible());
 });
 
 test("the lamps follow the inputs in all patterns", async () => {
@@ -39,7 +38,6 @@ test("the lamps follow the inputs in all patterns", async () => {
     await cyclesLater(here.page, 24);
     assert.deepEqual([await lamp(here.page, "q"), await lamp(here.page, "nq")], [q, 1 - q], `d ${d}, e ${e}`);
   }
-  assert.ok(await here.page.locator(".hint").isHidden());
 });
 
 test("pause, step, rewind and reset", async () => {
@@ -97,15 +95,44 @@ test("an automatic clock changes its input", async () => {
   await here.page.locator(".clock select").selectOption({ label: "d" });
   await here.page.locator(".clock input").fill("6");
   await here.page.locator("[data-do=clock]").click();
-  await here.page.locator("[data-do=play]").click();
+  await here.page.locator("[data-do=play][data-running=true]").waitFor();
   await here.page.getByText("Clock: d every 6").waitFor();
   const input = value => here.page.locator(`button[data-input="d"][aria-checked="${value}"]`);
   await input(true).waitFor();
   await input(false).waitFor();
   await input(true).waitFor();
-  await here.page.locator(".clock summary").click();
   await here.page.locator("[data-do=clock]").click();
   await here.page.locator("[data-do=clock][aria-pressed=false]").waitFor();
+});
+
+test("a run ends by itself after some cycles and clocks, and when an output has a value", async () => {
+  const { page } = here;
+  const rests = () => page.locator("[data-do=play][data-running=false]").waitFor();
+  await page.locator("[data-do=reset]").click();
+  await page.locator(".speed").selectOption("max");
+  await setInput(page, "e", 1);
+  await setInput(page, "d", 1);
+  await page.locator(".until summary").click();
+  await page.getByLabel("How many").fill("30");
+  await page.locator("[data-do=until-cycles]").click();
+  await page.waitForFunction(() => /^cycle 30\b/.test(document.querySelector(".cycle").textContent));
+  await rests();
+  await page.locator(".until summary").click();
+  await page.getByLabel("Output or register").selectOption("nq");
+  await page.locator("[data-do=until-value]").click();
+  await page.getByText("Until nq is 1").waitFor();
+  await setInput(page, "d", 0);
+  await rests();
+  assert.equal(await lamp(page, "nq"), 1);
+  const before = await cycle(page);
+  await page.locator(".until summary").click();
+  await page.locator("[data-do=until-clocks]").click();
+  await rests();
+  assert.ok((await cycle(page)) > before + 30 && (await cycle(page)) % 2 === before % 2);
+  await page.locator(".clock summary").click();
+  await page.locator("[data-do=clock][aria-pressed=true]").click();
+  await page.locator(".speed").selectOption("16×");
+  await page.locator("[data-do=play]").click();
 });
 
 test("what is pointed at is marked in all views, and a robot can be followed alone", async () => {
@@ -114,9 +141,9 @@ test("what is pointed at is marked in all views, and a robot can be followed alo
   await here.page.locator('.schematic [data-id="cell-0"].pointed').waitFor();
   assert.match(await here.page.locator(".inspector .line").textContent(), /NOT a \(not_5x5\) senses d = [01]/);
   await here.page.locator('.schematic [data-id="cell-0"]').click();
-  await here.page.locator(".inspector .facts:not([hidden])").waitFor();
+  await here.page.locator(".scene .facts:not([hidden])").waitFor();
   await here.page.locator("[data-do=all]").click();
-  await here.page.locator(".inspector .facts").waitFor({ state: "hidden" });
+  await here.page.locator(".scene .facts").waitFor({ state: "hidden" });
 });
 
 test("every kind of file can be taken away", async () => {

@@ -96,8 +96,8 @@ test("a box of the schematic opens, and its robots are shown alone", async () =>
   assert.ok(boxes > 0 && boxes <= 40, `${boxes} boxes`);
   await page.locator('.schematic [data-id^="part-"]').first().press("Enter");
   await page.waitForFunction(before => document.querySelector(".stage").scrollHeight < before / 2, before);
-  assert.equal(await page.locator(".schematic .crumbs button").count(), 2);
-  await page.locator(".schematic .crumbs button").first().press("Enter");
+  assert.equal(await page.locator(".crumbs button").count(), 2);
+  await page.locator(".crumbs button").first().press("Enter");
   await page.waitForFunction(before => document.querySelector(".stage").scrollHeight >= before, before);
 });
 

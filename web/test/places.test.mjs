@@ -100,7 +100,6 @@ test("a program without a circuit says so, and shows no robots of another", asyn
   const says = text => page.locator(".swarm .status", { hasText: text }).waitFor();
   await says(/^The program has no circuit$/);
   await page.locator(".stage").waitFor({ state: "hidden" });
-  await page.locator(".hint").waitFor({ state: "hidden" });
   await typeProgram(page, "circuit gate(a, b) -> (q) {\n    q = a and b\n}\n");
   await says(/^1 robot/);
   await page.locator(".stage").waitFor();
@@ -110,11 +109,14 @@ test("a program without a circuit says so, and shows no robots of another", asyn
   await page.leave();
 });
 
-test("an address of no lesson opens the page as usual", async () => {
-  const page = await visit(at("lesson/no-such-lesson/1"));
-  await walking(page);
-  await file(page, "latch.nb");
-  await page.leave();
+test("an address of nothing says so, and opens the page as usual", async () => {
+  for (const name of ["lesson/no-such-lesson/1", "nothere.nb"]) {
+    const page = await visit(at(name));
+    await walking(page);
+    await file(page, "latch.nb");
+    await page.getByText(`There is no ${name} here.`).waitFor();
+    await page.leave();
+  }
 });
 
 test("a step that does not count says which condition is open, and why", async () => {

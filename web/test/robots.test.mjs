@@ -23,7 +23,13 @@ const body = () =>
 
 const letters = text => here.page.locator(`.probe[data-letters="${text}"]:not([data-waiting])`).waitFor();
 
+test("the designer begins with a NAND that walks", async () => {
+  await letters("RRRL");
+  assert.equal(await here.page.locator(".probe h3").textContent(), "a NAND b");
+});
+
 test("an empty box is said to be empty", async () => {
+  await here.page.locator("[data-do=clear]").click();
   await here.page.getByText("the body is empty").waitFor();
   assert.deepEqual(await body(), ["00000", "00000", "00000", "00000", "00000"]);
 });

@@ -118,6 +118,8 @@ test("a public page that is known has links, too", { skip: needs("server") }, as
   await walking(page);
   const link = await copied(page, "public-link");
   assert.ok(link.startsWith(`${publicPage}#share=`), link);
+  const markdown = await copied(page, "markdown");
+  assert.ok(markdown.startsWith("```nb\n") && markdown.includes(`[two.nb](${publicPage}#share=`), markdown);
   assert.equal(await here.page.locator('[data-take="public-link"]').count(), 0, "where none is known");
   await page.leave();
   await program.stop();

@@ -66,6 +66,8 @@ for (const [width, height] of [
 ]) {
   test(`any pane fills a page of ${width} pixels, and Escape goes back`, async () => {
     const page = await open("lights", { viewport: { width, height } });
+    await page.locator("[data-do=diagram-paths]").click();
+    await page.evaluate(() => scrollTo(0, 0));
     for (const pane of ["stage", "schematic", "waveform", "spacetime"]) {
       const before = await box(page, `.${pane}`);
       await page.locator(`[data-fill="${pane}"]`).click();

@@ -78,6 +78,22 @@ test("while a large circuit is compiled other programs open, and Stop ends it", 
   await page.leave();
 });
 
+test("digits can be drawn on soon, and what they are is said before the robots show it", async t => {
+  const page = await visit(at("digits.nb"));
+  const begun = Date.now();
+  await page.locator(".drawn").waitFor();
+  t.diagnostic(`there after ${Date.now() - begun} ms`);
+  const said = () => page.locator(".logic").textContent();
+  const before = await said();
+  // A one.
+  for (const pixel of [60, 59, 52, 51, 44, 43, 36, 35, 28, 27, 20, 19, 12, 11, 4, 3]) {
+    await page.locator(`[data-pixel="pixels[${pixel}]"]`).click();
+  }
+  assert.match(await said(), /^soon digit = 1$/);
+  assert.notEqual(await said(), before);
+  await page.leave();
+});
+
 test("proofs and tests stop at once, and what was found stays", async t => {
   const page = await visit(at("hard.nb"));
   await shows(page, "hard.nb");

@@ -23,6 +23,7 @@ function situation(cycles: Values[], given: Partial<Situation> = {}): Situation 
     tests: 0,
     passed: 0,
     failed: 0,
+    hidden: new Map(),
     claims: 0,
     proved: 0,
     refuted: 0,
@@ -42,7 +43,7 @@ function situation(cycles: Values[], given: Partial<Situation> = {}): Situation 
 
 function lesson(checks: LessonCheck[], given: Partial<LessonEntry> = {}): LessonEntry {
   const steps = checks.map(check => ({ task: "", checks: [check], hints: [] }));
-  const none = { program: null, written: WRITTEN, hints: [], best: null };
+  const none = { chapter: null, program: null, written: WRITTEN, hints: [], best: null };
   return { name: "one", title: "", text: [], tab: "swarm", ...none, steps, ...given };
 }
 
@@ -115,12 +116,12 @@ test("a step says why it does not count", () => {
   assert.equal(needs({ is: "shows", values: { a: 1, q: 1 } }, now), "the swarm shows a = 1, q = 1 – now q = 0");
   assert.match(needs({ is: "keeps", values: { a: 1 } }, now), / – not for long enough yet$/);
   assert.match(needs({ is: "has-shown", patterns: [{ a: 0 }, { a: 1 }] }, now), / – not yet a = 0$/);
-  assert.match(needs({ is: "without", words: ["not", "nand"] }, situation([])), / – there is `nand`$/);
+  assert.match(needs({ is: "without", words: ["not", "nand"] }, situation([])), / – `nand` is there$/);
   // The word is not taken for one of the sentence.
   const not = situation([], { written: { ...WRITTEN, words: ["not", "calls"] } });
   assert.equal(
     needs({ is: "without", words: ["not", "calls"] }, not),
-    "the circuits are written without `not`, calls of standard circuits – there is `not`, calls of standard circuits",
+    "the circuits are written without `not`, calls of standard circuits – `not`, calls of standard circuits are there",
   );
   assert.match(needs({ is: "tests-pass" }, situation([], { tests: 3, passed: 1, failed: 1 })), / – 1 of 3 fail$/);
   const wrong = situation([], { errors: 2, circuits: 0, problem: "no net is called `c`" });

@@ -19,7 +19,7 @@ impl AnswerMessage {
         (!is_stopped(&self.result)).then(|| encode(self))
     }
 
-    /// Whether the task can have this result is left to the caller to check.
+    /// The caller checks whether the task can have this result.
     pub fn decode(bytes: &[u8]) -> Option<Self> {
         decode(bytes).filter(|answer: &Self| !is_stopped(&answer.result))
     }

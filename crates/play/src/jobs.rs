@@ -13,10 +13,13 @@ use crate::outbox::Outbox;
 use crate::refusal::Refused;
 use crate::shell::{Portion, Shell, WorkKind};
 use nbc_base::budget::Limit;
-use nbc_circuit::CancelFlag;
-use nbc_session::{CompileOptions, Observer};
+use nbc_base::model::Instance;
+use nbc_circuit::{CancelFlag, Effort};
+use nbc_session::{Checked, CompileOptions, Observer};
 use nbc_sim::{Monitor, Simulator};
 
+/// Circuits with more gates are mapped with little effort.
+const MANY_GATES: usize = 500;
 const TIME: Duration = Duration::from_secs(Limit::PageSeconds.most());
 
 pub(super) struct Jobs {
@@ -146,6 +149,12 @@ impl Drop for Jobs {
 impl Job {
     pub(super) fn simulator(&self) -> Simulator {
         Simulator::monitored(self.monitor.clone())
+    }
+
+    /// Maps a large circuit with little effort: seconds instead of minutes, for a few more robots.
+    pub(super) fn options_for(&self, checked: &Checked, circuit: &Instance) -> CompileOptions {
+        let effort = if checked.gates(circuit) > MANY_GATES { Effort::Fast } else { self.making.effort };
+        CompileOptions { effort, ..self.options() }
     }
 
     pub(super) fn options(&self) -> CompileOptions {

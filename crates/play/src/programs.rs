@@ -11,7 +11,7 @@ use crate::message::{
 };
 use crate::refusal::Refused;
 use crate::runner::{LoadingSwarm, RunningSwarm};
-use crate::script::GivenInputs;
+use crate::script::{GivenInputs, chosen_test};
 use crate::shared_cycle::SharedCycles;
 use crate::shell::Shell;
 use crate::site::SCHEME;
@@ -89,7 +89,7 @@ pub(super) fn chosen(checked: &Checked, choice: &Choice, job: &Job) -> Result<(I
     let circuit = checked.circuit(choice)?;
     let first = || checked.swarms(&circuit).first().map(|swarm| swarm.name.clone());
     let swarm = choice.swarm.clone().or_else(first);
-    let options = CompileOptions { swarm, ..job.options() };
+    let options = CompileOptions { swarm, ..job.options_for(checked, &circuit) };
     Ok((circuit, options))
 }
 
@@ -207,15 +207,16 @@ fn robot(
 pub(super) fn testing(
     session: Session,
     open: impl FnOnce(&Job) -> Result<Arc<Checked>, Refused> + Send + 'static,
-    (test, level): (usize, Level),
+    (test, level): (Option<usize>, Level),
     shell: Arc<dyn Shell>,
 ) -> JobWork {
     let (mut open, mut running, mut cycles) = (Some(open), None, SharedCycles::new(shell));
     Box::new(move |job| {
         let Some(run) = &mut running else {
             let checked = open.take().expect("it is opened once")(job)?;
-            let test = checked.program.tests.get(test).ok_or(Refused::NoTest)?;
-            let options = TestOptions { level: Some(level), compile: job.options() };
+            let test = chosen_test(&checked, test)?;
+            let compile = job.options_for(&checked, &test.circuit);
+            let options = TestOptions { level: Some(level), compile };
             running = Some(session.begin_test(&checked, test, &options)?);
             return Ok(PortionEnd::More);
         };

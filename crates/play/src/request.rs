@@ -41,7 +41,7 @@ pub(super) enum Verb {
     },
     Test {
         path: String,
-        test: usize,
+        test: ChosenTest,
         level: Level,
     },
     Prove {
@@ -119,6 +119,16 @@ pub(super) enum Verb {
 pub(super) enum ChosenTest {
     Declared(usize),
     Shown(String),
+}
+
+impl ChosenTest {
+    /// The number of a declared test, or the text of another one, which is then the last test of the program.
+    pub(super) fn parts(self) -> (Option<usize>, Option<String>) {
+        match self {
+            Self::Declared(test) => (Some(test), None),
+            Self::Shown(text) => (None, Some(text)),
+        }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]

@@ -3,6 +3,7 @@
 use crate::jobs::Job;
 use crate::message::{ShownEnvironment, ShownMemory, ShownScript};
 use crate::refusal::Refused;
+use nbc_base::model::CircuitTest;
 use nbc_session::{Checked, Compiled, EnvironmentRow, EnvironmentRun, Session, TestCase, TestOptions};
 use nbc_swarm::Level;
 
@@ -24,15 +25,20 @@ pub(super) struct TestMoment<'a> {
     pub(super) row: usize,
 }
 
+/// The test of a number, or else the last one.
+pub(super) fn chosen_test(checked: &Checked, number: Option<usize>) -> Result<&CircuitTest, Refused> {
+    let tests = &checked.program.tests;
+    number.map_or_else(|| tests.last(), |number| tests.get(number)).ok_or(Refused::NoTest)
+}
+
 pub(super) fn begin(
     session: &Session,
     checked: &Checked,
     TestMoment { test, swarm, world, row }: TestMoment<'_>,
     job: &Job,
 ) -> Result<(Compiled, GivenInputs), Refused> {
-    let tests = &checked.program.tests;
-    let test = test.map_or_else(|| tests.last(), |test| tests.get(test)).ok_or(Refused::NoTest)?;
-    let options = TestOptions { level: Some(Level::Physics), compile: job.options() };
+    let test = chosen_test(checked, test)?;
+    let options = TestOptions { level: Some(Level::Physics), compile: job.options_for(checked, &test.circuit) };
     let cases = session.cases(checked, test, &options)?;
     let is_meant =
         |case: &TestCase| (swarm.is_none() || case.swarm() == swarm) && (world.is_none() || case.world_name() == world);

@@ -69,8 +69,10 @@ impl TextChecker {
         if checked.has_errors() { Err(checked.fail(checked.diagnostics.clone()).into()) } else { Ok(checked) }
     }
 
-    pub(super) fn open_with(&self, path: &str, more: &str, job: &Job) -> Result<Arc<Checked>, Refused> {
+    /// `more` is added to the text.
+    pub(super) fn open_with(&self, path: &str, more: Option<&str>, job: &Job) -> Result<Arc<Checked>, Refused> {
         let checked = self.open(path, job)?;
+        let Some(more) = more else { return Ok(checked) };
         let own = checked.file.map_or("", |file| &checked.sources.file(file).text);
         // Beside the source, so that it finds the same files, at a path that no page can have.
         let beside = format!("{path}\0");

@@ -15,7 +15,7 @@ use crate::message::{ClassName, Greeting, LessonList, PlayLimits, RequestResult,
 use crate::outbox::{Line, Outbox};
 use crate::page_files::{PageFiles, example, examples, is_circuit, program_around};
 use crate::refusal::Refused;
-use crate::request::{ChosenTest, Request, TakeKind, Verb};
+use crate::request::{Request, TakeKind, Verb};
 use crate::runner::{LoadingSwarm, Runner};
 use crate::script::{GivenInputs, TestMoment};
 use crate::shell::WorkKind;
@@ -190,10 +190,7 @@ impl Visit {
                 })
             }
             Verb::Replay { path, test, swarm, world, row } => {
-                let (test, shown) = match test {
-                    ChosenTest::Declared(test) => (Some(test), None),
-                    ChosenTest::Shown(text) => (None, Some(text)),
-                };
+                let (test, shown) = test.parts();
                 self.swarm(path, shown, RequestResult::Replay, move |session, checked, job| {
                     let moment = TestMoment { test, swarm: swarm.as_deref(), world: world.as_deref(), row };
                     script::begin(session, checked, moment, job)
@@ -211,7 +208,8 @@ impl Visit {
             }
             Verb::Test { path, test, level } => {
                 let checker = self.checker.clone();
-                let open = move |job: &Job| checker.open(&path, job);
+                let (test, shown) = test.parts();
+                let open = move |job: &Job| checker.open_with(&path, shown.as_deref(), job);
                 programs::testing(self.fresh(), open, (test, level), site.shell.clone())
             }
             Verb::Prove { path, claim } => {
@@ -306,10 +304,7 @@ impl Visit {
         Box::new(move |job| {
             let Some(swarm) = &mut loading else {
                 let compile = compile.take().expect("it is compiled once");
-                let checked = match &more {
-                    None => checker.open(&path, job)?,
-                    Some(test) => checker.open_with(&path, test, job)?,
-                };
+                let checked = checker.open_with(&path, more.as_deref(), job)?;
                 let (compiled, script) = compile(&session, &checked, job)?;
                 loading = Some(programs::loading(
                     (&session, &checked),

@@ -4,7 +4,7 @@ use crate::contents;
 use nbc_base::diag::{Diagnostic, Diagnostics, Finding, findings};
 use nbc_base::model::{Instance, Program};
 use nbc_base::source::{FileId, ForeignCircuit, MemoryWorld, SourceWorld, Sources, Span};
-use nbc_circuit::NetWidths;
+use nbc_circuit::{NetWidths, elaborate};
 use nbc_lang::check::{self, Analysis, NameUses};
 use nbc_lang::syntax::tree::Tree;
 
@@ -56,6 +56,11 @@ impl Checked {
             foreign,
             is_cancelled,
         }
+    }
+
+    /// The gates of a circuit as it is written; 0 if it has faults.
+    pub fn gates(&self, circuit: &Instance) -> usize {
+        elaborate(&self.program, circuit).map_or(0, |source| source.cells().count())
     }
 
     /// `None` if nothing could be parsed.

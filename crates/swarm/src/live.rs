@@ -48,8 +48,7 @@ impl SwarmSnapshot {
 
 impl LiveSwarm {
     /// Starts a swarm in a world wide enough for `cycles`. An output is the sign of the displacement over the last
-    /// `window` cycles.
-    /// Poses are recorded if there is room for them. Panics when the window is empty.
+    /// `window` cycles. Poses are recorded if there is room for them. Panics when the window is empty.
     pub fn new(simulator: &Simulator, assembly: &Assembly, cycles: usize, window: usize, poses: Option<Room>) -> Self {
         assert!(window > 0, "an output is read over one cycle at least");
         let flock = assembly.flock(simulator, cycles);

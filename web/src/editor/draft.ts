@@ -5,7 +5,6 @@ import { own, recalled, recallText, rememberText } from "../memory";
 
 export interface Draft {
   text: string;
-  /** The stamp of the file that it was made from. */
   stamp: string | null;
   /** Whether nobody has changed it: it is kept only because no file has it. */
   untouched?: boolean;

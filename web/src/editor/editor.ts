@@ -2,7 +2,7 @@
 
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
-import { bracketMatching, indentUnit } from "@codemirror/language";
+import { bracketMatching, indentService, indentUnit } from "@codemirror/language";
 import { lintGutter, lintKeymap } from "@codemirror/lint";
 import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
 import { Compartment, EditorState, Transaction, type Extension } from "@codemirror/state";
@@ -70,6 +70,12 @@ const look = EditorView.theme({
   },
 });
 
+const indentation = indentService.of(({ state, unit }, place) => {
+  const { text, from } = state.doc.lineAt(place);
+  const own = /^\s*/.exec(text)?.[0].length ?? 0;
+  return own + (/[({]\s*$/.test(text.slice(0, place - from)) ? unit : 0);
+});
+
 export interface EditorEvents {
   changed: (text: string) => void;
   save: () => void;
@@ -99,7 +105,6 @@ export class Editor {
     this.#view.setState(this.#state(text));
   }
 
-  /** Replaces the text in a way that can be undone. */
   replace(text: string): void {
     this.#view.dispatch({ changes: { from: 0, to: this.#view.state.doc.length, insert: text } });
   }
@@ -116,14 +121,12 @@ export class Editor {
     this.#view.dispatch({ changes: { from: next?.from ?? doc.length, insert }, scrollIntoView: true });
   }
 
-  /** Adds lines at the end, after an empty one. */
   append(lines: string): void {
     const { doc } = this.#view.state;
     const before = doc.line(doc.lines).length === 0 ? "\n" : "\n\n";
     this.#view.dispatch({ changes: { from: doc.length, insert: `${before}${lines}\n` }, scrollIntoView: true });
   }
 
-  /** Leads to a line, from 1. */
   reveal(line: number): void {
     const { doc } = this.#view.state;
     const { from, to } = doc.line(Math.min(doc.lines, Math.max(1, line)));
@@ -163,6 +166,7 @@ export class Editor {
         autocompletion(),
         lintGutter(),
         indentUnit.of("    "),
+        indentation,
         nb(),
         look,
         EditorView.contentAttributes.of({ "aria-label": "The program" }),

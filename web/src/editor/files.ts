@@ -1,6 +1,8 @@
 // Choosing a program: the files of the folder, the examples, or a new one.
 
+import { ask } from "../dialog";
 import { button, element, fill, iconButton } from "../element";
+import { INVISIBLE } from "../tab/zip";
 import { freePath } from "../free_path";
 import type { ExampleEntry } from "../protocol";
 
@@ -17,12 +19,9 @@ test mine "both" {
 }
 `;
 
-/** A folder with more files is closed at first. */
 const FEW = 12;
 
-/** What can be done with the programs of the list. */
 export interface FileDoors {
-  /** What the list of one's own programs is called. */
   title: string;
   /** Opens a program of this path: a file, an example or a draft. */
   open: (path: string) => void;
@@ -43,7 +42,6 @@ export class FilePicker {
 
   constructor(
     private readonly doors: FileDoors,
-    /** The section of files that come and go. */
     private readonly transfer: HTMLElement,
   ) {
     this.host.addEventListener("click", event => {
@@ -209,77 +207,48 @@ function section(title: string, items: HTMLElement[]): HTMLElement {
   return element("section", {}, element("h3", {}, title), list);
 }
 
-/** A path with the ending of a program; null if there is no name. */
+/** A path with the ending of a program, of visible characters alone; null if there is no name. */
 export function withEnding(text: string): string | null {
-  const path = text.trim().replace(/^\/+/, "");
+  const path = text.replace(new RegExp(INVISIBLE, "gu"), "").trim().replace(/^\/+/, "");
   return path === "" ? null : path.endsWith(".nb") ? path : `${path}.nb`;
 }
 
-/** Asks for a path, to save there or for another purpose. */
-export function askPath(suggested: string, label = "Save as", action = "Save"): Promise<string | null> {
-  return new Promise(resolve => {
-    const field = element("input", {
-      type: "text",
-      value: suggested,
-      "aria-label": "Path within the folder",
-      spellcheck: "false",
-    });
-    let answer: string | null = null;
-    const dialog = element(
-      "dialog",
-      { class: "ask", "aria-label": label },
+export async function askPath(suggested: string, label = "Save as", action = "Save"): Promise<string | null> {
+  const field = element("input", {
+    type: "text",
+    value: suggested,
+    "aria-label": "Path within the folder",
+    spellcheck: "false",
+  });
+  const asked = ask<string>(label, "ask", close => {
+    const accept = (): void => close(field.value);
+    onEnter(field, accept);
+    return [
       element("h2", {}, label),
       field,
       element(
         "p",
         { class: "row" },
-        button(action, () => accept(), { class: "primary", "data-do": "save-as" }),
-        button("Cancel", () => dialog.close()),
+        button(action, accept, { class: "primary", "data-do": "save-as" }),
+        button("Cancel", () => close("")),
       ),
-    );
-    const accept = (): void => {
-      answer = withEnding(field.value);
-      dialog.close();
-    };
-    onEnter(field, accept);
-    dialog.onclose = () => {
-      dialog.remove();
-      resolve(answer);
-    };
-    document.body.append(dialog);
-    dialog.showModal();
-    field.select();
+    ];
   });
+  field.select();
+  return withEnding((await asked) ?? "");
 }
 
 /** Asks whether the unsaved text of a program may go, where the browser keeps no drafts. */
-export function askLeave(path: string): Promise<boolean> {
-  return new Promise(resolve => {
-    let answer = false;
-    const dialog = element(
-      "dialog",
-      { class: "ask", "aria-label": "Leave the program" },
-      element("h2", {}, `${path} is not saved`),
-      element("p", {}, "This browser does not keep drafts: opening another program loses your changes."),
-      element(
-        "p",
-        { class: "row" },
-        button("Stay here", () => dialog.close(), { class: "primary", "data-do": "stay" }),
-        button(
-          "Open it anyway",
-          () => {
-            answer = true;
-            dialog.close();
-          },
-          { "data-do": "leave" },
-        ),
-      ),
-    );
-    dialog.onclose = () => {
-      dialog.remove();
-      resolve(answer);
-    };
-    document.body.append(dialog);
-    dialog.showModal();
-  });
+export async function askLeave(path: string): Promise<boolean> {
+  const answer = await ask<boolean>("Leave the program", "ask", close => [
+    element("h2", {}, `${path} is not saved`),
+    element("p", {}, "This browser does not keep drafts: opening another program loses your changes."),
+    element(
+      "p",
+      { class: "row" },
+      button("Stay here", () => close(false), { class: "primary", "data-do": "stay" }),
+      button("Open it anyway", () => close(true), { "data-do": "leave" }),
+    ),
+  ]);
+  return answer === true;
 }

@@ -33,14 +33,12 @@ interface Range {
   end: Position;
 }
 
-/** What the server offers: an edit that mends a mistake. */
 interface CodeAction {
   title: string;
   diagnostics?: { range: Range; message: string }[];
   edit?: { changes?: Record<string, { range: Range; newText: string }[]> };
 }
 
-/** Marks the diagnostics that have their fixes already. */
 const complete = Annotation.define<boolean>();
 
 /** Asks for the fixes of diagnostics as soon as these arrive. */
@@ -83,7 +81,6 @@ async function addFixes(view: EditorView): Promise<void> {
   view.dispatch({ ...setDiagnostics(view.state, fixed), annotations: complete.of(true) });
 }
 
-/** A fix that changes this document alone, as a button. */
 function actionOf({ title, edit }: CodeAction, plugin: LSPPlugin, doc: Text): Action[] {
   const edits = Object.entries(edit?.changes ?? {});
   const own = edits.find(([uri]) => decodeURI(uri) === decodeURI(plugin.uri))?.[1];
@@ -110,7 +107,6 @@ function diagnosticsOf(state: EditorState): Diagnostic[] {
   return found;
 }
 
-/** The diagnostics with fixes that touch the line of a place. */
 function fixable(state: EditorState, place: number): Diagnostic[] {
   const line = state.doc.lineAt(place);
   return diagnosticsOf(state).filter(
@@ -118,7 +114,6 @@ function fixable(state: EditorState, place: number): Diagnostic[] {
   );
 }
 
-/** Opens the list of fixes at a place, or closes it. */
 const listAt = StateEffect.define<number | null>();
 
 const list = StateField.define<Tooltip | null>({

@@ -16,9 +16,7 @@ import type { LanguageServer } from "./server";
 import { Transfer } from "./transfer";
 
 export interface EditDoors {
-  /** The folder, if it is in the browser. */
   folder: BrowserFolder | null;
-  /** A shared program was opened. */
   shared: (shared: SharedProgram) => void;
   /** A program is shown: another one, or the same under a new name. */
   shown: (isSame: boolean) => void;
@@ -30,7 +28,6 @@ export class EditPanel {
   readonly notices = new Notices();
   readonly #picker: FilePicker;
   readonly #transfer: Transfer;
-  /** The files as they were listed last. */
   #files: string[] = [];
   readonly #name = button("", () => void this.pick(), {
     class: "file",
@@ -53,7 +50,7 @@ export class EditPanel {
     this.editor = new Editor({ changed: text => program.edit(text), save: () => void this.save() });
     this.#picker = new FilePicker(
       {
-        title: doors.folder === null ? "In this folder" : "In this browser",
+        title: doors.folder === null ? "In this folder" : "My programs",
         open: path => void this.leaveFor(() => this.#return(path)),
         openExample: name => void this.leaveFor(() => this.open({ example: name })),
         begin: path => void this.leaveFor(() => this.begin(path, NEW_PROGRAM)),
@@ -136,12 +133,10 @@ export class EditPanel {
     }
   }
 
-  /** Begins a program that has no file yet. */
   begin(path: string, text: string): void {
     this.#show({ path, text, stamp: null }, true);
   }
 
-  /** Shows another program, if the present one may go. */
   async leaveFor(show: () => unknown): Promise<void> {
     if (await this.mayLeave()) {
       show();
@@ -192,7 +187,6 @@ export class EditPanel {
     this.notices.show("shared", `A shared program, not saved yet: ${path}. Read it before you trust it.`, back);
   }
 
-  /** Opens a program again that was shown before: a file, an example, or a draft. */
   async #return(path: string): Promise<void> {
     const isExample = this.program.hello?.examples.some(({ name }) => name === path) === true;
     const draft = this.program.drafts.of(path);
@@ -264,7 +258,6 @@ export class EditPanel {
     }
   }
 
-  /** The paths of the files as they are now. */
   async #list(): Promise<string[]> {
     this.#files = (await this.connection.request("files", {})).map(({ path }) => path);
     return this.#files;
@@ -378,7 +371,6 @@ export class EditPanel {
     ]);
   }
 
-  /** Asks whether another file may be replaced. */
   #offerReplace(path: string): void {
     const replace = async (): Promise<void> => {
       const { stamp } = await this.connection.request("read", { path });

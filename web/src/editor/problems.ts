@@ -4,10 +4,8 @@ import { element, fill } from "../element";
 import type { Program } from "../program";
 import type { Finding } from "../protocol";
 
-/** The most that are listed. */
 const MOST = 50;
 
-/** The list of a program's mistakes and warnings, hidden while there are none. */
 export function problemList(program: Program, reveal: (line: number) => void): HTMLElement {
   const host = element("ul", { class: "problems", "aria-label": "What is wrong", hidden: true });
   program.checked.follow(checked => {

@@ -11,7 +11,6 @@ import { sanitize } from "./sanitize";
 const TIMEOUT = 120_000;
 
 export class LanguageServer {
-  /** The client of the present connection. */
   readonly client = new Observable<LSPClient | null>(null);
   #line: Line | null = null;
 

@@ -4,7 +4,7 @@ import { counted } from "../counted";
 import { downloadBytes } from "../download";
 import { button, element, fill } from "../element";
 import type { BrowserFolder } from "../line";
-import { MOST_FILE, ZipError, decoded, unzip, zip, type Unzipped } from "../tab/zip";
+import { INVISIBLE, MOST_FILE, ZipError, decoded, unzip, zip, type Unzipped } from "../tab/zip";
 
 export class Transfer {
   readonly host: HTMLElement;
@@ -13,9 +13,7 @@ export class Transfer {
   constructor(
     /** The folder, if it is in the browser; else programs come as drafts. */
     private readonly folder: BrowserFolder | null,
-    /** Files have come. */
     private readonly changed: () => void,
-    /** A program has come, as a file of the folder or as a text that has none. */
     private readonly open: (path: string, text: string | null) => void,
   ) {
     const field = element("input", { type: "file", multiple: true, "aria-label": "Files to add", "data-do": "import" });
@@ -38,7 +36,6 @@ export class Transfer {
     );
   }
 
-  /** Takes files from a disk. */
   async take(files: File[]): Promise<void> {
     const read: Unzipped = { files: [], leftOut: [] };
     for (const file of files) {
@@ -108,9 +105,11 @@ export class Transfer {
   }
 }
 
-/** Adds what a file has to what was read. */
 async function add(file: File, read: Unzipped): Promise<void> {
   const isArchive = file.name.endsWith(".zip");
+  if (INVISIBLE.test(file.name)) {
+    throw new ZipError("its name has invisible characters");
+  }
   if (!isArchive && file.size > MOST_FILE) {
     throw new ZipError("the file is larger than 1 MB");
   }
@@ -127,7 +126,6 @@ async function add(file: File, read: Unzipped): Promise<void> {
   }
 }
 
-/** The most names that are listed. */
 const MOST = 5;
 
 function names(paths: string[]): string {

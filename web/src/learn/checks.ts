@@ -8,7 +8,6 @@ type Values = { [port: string]: number | undefined };
 /** The last cycles in which `has-shown` looks. */
 const LATELY = 400;
 
-/** Whether a condition of a lesson holds. */
 export function holds(check: LessonCheck, situation: Situation, lesson: LessonEntry): boolean {
   const { now, written, tests, passed, failed, claims, proved, refuted, search, design } = situation;
   switch (check.is) {
@@ -39,6 +38,8 @@ export function holds(check: LessonCheck, situation: Situation, lesson: LessonEn
       return tests > 0 && passed === tests;
     case "tests-fail":
       return failed > 0;
+    case "passes":
+      return situation.hidden.get(check.test) === null;
     case "claims-proved":
       return claims > 0 && proved === claims;
     case "claims-refuted":
@@ -67,7 +68,6 @@ export function lostLine(written: WrittenProgram, lesson: LessonEntry): string |
   return lesson.written?.kept.find(line => !written.kept.includes(line));
 }
 
-/** Whether these values were there lately. */
 export function wasShown(situation: Situation, values: Values): boolean {
   const { now } = situation;
   return cycles(Math.max(1, now - LATELY), now).some(cycle => has(situation, values, cycle));

@@ -5,11 +5,9 @@ import { button, element, fill } from "../element";
 import { learner, recall, remember, setLearner } from "../memory";
 import { RequestError } from "../request";
 
-/** Where a learner is. */
 interface Place {
   lesson: string;
   done: number;
-  /** The size of their smallest circuit. */
   size: number | null;
 }
 
@@ -34,7 +32,6 @@ export class ClassPanel {
     }
   }
 
-  /** Tells the class where the learner is, if they have joined. */
   tell(place: Place | null, finished: number): void {
     if (JSON.stringify({ place, finished }) === JSON.stringify(this.#told)) {
       return;
@@ -122,10 +119,8 @@ const SEEN =
   "are not shown. You can leave the class at any time.";
 
 const KEYS = "class-keys";
-/** The most names of this browser whose keys are kept. */
 const MOST_KEYS = 20;
 
-/** The key of a name that this browser has had before. */
 function keyOf(name: string): string | null {
   return (recall<[string, string][]>(KEYS) ?? []).find(([other]) => other === name)?.[1] ?? null;
 }

@@ -9,7 +9,6 @@ export interface KeptProgram {
   at: number;
 }
 
-/** The most programs that are kept for a lesson. */
 const MOST = 10;
 
 /** The kept programs of a lesson, the latest first. */
@@ -27,12 +26,10 @@ function name(folder: string, lesson: string): string {
   return own(`kept:${folder}:${lesson}`);
 }
 
-/** The file in which the program of a lesson was saved last. */
 export function savedFile(folder: string, lesson: string): string | null {
   return recall<string>(own(`lesson-file:${folder}:${lesson}`));
 }
 
-/** Notes it; null forgets it. */
 export function noteSavedFile(folder: string, lesson: string, path: string | null): void {
   remember(own(`lesson-file:${folder}:${lesson}`), path);
 }

@@ -7,12 +7,10 @@ import { RequestError } from "../request";
 
 export class Lessons {
   readonly list = new Observable<LessonEntry[]>([]);
-  /** What is wrong with the files of an author. */
   findings: Finding[] = [];
 
   constructor(private readonly connection: Connection) {}
 
-  /** Asks the server for them. */
   async load(): Promise<void> {
     try {
       const { lessons, findings } = await this.connection.request("lessons", {});
@@ -47,7 +45,6 @@ export function isLessonPath(lesson: LessonEntry, path: string): boolean {
   return path === own || (path.startsWith(start) && /^[^./]+\.nb$/.test(path.slice(start.length)));
 }
 
-/** The address of a step. */
 export function stepAddress(lesson: LessonEntry, step: number): string {
   return `lesson/${lesson.name}/${step + 1}`;
 }

@@ -30,7 +30,6 @@ function joined(wanted: string, why: string): string {
   return why === "" ? wanted : `${wanted} – ${why}`;
 }
 
-/** What a condition asks for. */
 export function wordsOf(check: LessonCheck): string {
   switch (check.is) {
     case "shows":
@@ -55,6 +54,8 @@ export function wordsOf(check: LessonCheck): string {
       return "all tests have been run and pass";
     case "tests-fail":
       return "a test has been run and fails";
+    case "passes":
+      return "the circuit does what is asked in all cases";
     case "claims-proved":
       return "all that is claimed is proved";
     case "claims-refuted":
@@ -96,13 +97,15 @@ function reason(check: LessonCheck, situation: Situation, lesson: LessonEntry): 
       return others.length === 0 ? notCompiled(situation) : `there is also ${others.join(", ")}`;
     }
     case "without":
-      return `there is ${quoted(check.words.filter(word => written?.words.includes(word)))}`;
+      return thereText(check.words.filter(word => written?.words.includes(word)));
     case "circuit":
       return situation.circuit === null ? notCompiled(situation) : `${situation.circuit} is`;
     case "tests-pass":
       return tests === 0 ? notCompiled(situation) || "there is none" : testsText(tests, passed, failed);
     case "tests-fail":
       return passed === 0 ? "none has been run" : "those that were run pass";
+    case "passes":
+      return situation.hidden.get(check.test) ?? "";
     case "claims-proved":
       if (situation.claims === 0) {
         return notCompiled(situation) || "nothing is claimed";
@@ -124,6 +127,10 @@ function quoted(words: string[]): string {
   return words.map(word => (word === "calls" ? "calls of standard circuits" : `\`${word}\``)).join(", ");
 }
 
+function thereText(words: string[]): string {
+  return `${quoted(words)} ${words.length > 1 || words.includes("calls") ? "are" : "is"} there`;
+}
+
 function notCompiled({ isChecked, errors, circuits }: Situation): string {
   if (!isChecked) {
     return "the program is being checked";
@@ -140,7 +147,6 @@ function testsText(tests: number, passed: number, failed: number): string {
       : `${run} of ${tests} have been run`;
 }
 
-/** What the ports show now that should show something else. */
 function shownText(values: Values, { now, port }: Situation): string {
   const wrong = Object.entries(values).filter(([name, value]) => port(name, now) !== value);
   if (wrong.length === 0) {

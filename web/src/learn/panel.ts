@@ -1,5 +1,6 @@
 // The tab with the lessons: their cards, where the course stands, and what begins a lesson.
 
+import type { Connection } from "../connection";
 import { button, element, fill } from "../element";
 import type { TabName } from "../layout";
 import type { LiveSwarm } from "../live/swarm";
@@ -10,6 +11,7 @@ import type { RobotsPanel } from "../robots/panel";
 import type { TestsPanel } from "../tests/panel";
 import { prefersStillness } from "../theme";
 import type { ClassPanel } from "./class";
+import { HiddenTests } from "./hidden";
 import { keepProgram, noteSavedFile, savedFile } from "./kept";
 import { isLessonPath, lessonPath, stepAddress, type Lessons } from "./lessons";
 import { Progress } from "./progress";
@@ -27,16 +29,12 @@ export interface LearnParts {
 }
 
 export interface LearnDoors {
-  /** Opens a program without a file. */
   open: (path: string, text: string) => void;
   /** Opens a file, or, if it is gone, a program without a file. */
   openSaved: (saved: string, path: string, text: string) => void;
-  /** Replaces the text of the program. */
   replace: (text: string) => void;
   show: (tab: TabName) => void;
-  /** Notes that another step is shown. */
   moved: () => void;
-  /** Notes that a lesson is open. */
   begun: () => void;
 }
 
@@ -44,18 +42,17 @@ export class LearnPanel {
   readonly host = element("div", { class: "learn" });
   readonly strip: Strip;
   readonly #progress = new Progress();
+  readonly #hidden: HiddenTests;
   readonly #cards = element("div", { class: "course" });
   #lesson: LessonEntry | null = null;
-  /** The number of the step that is shown. */
   #step = 0;
-  /** Whether the learner has asked what this step still needs. */
   #isAsked = false;
   /** The size of the present circuit, where the lesson asks for one. */
   #size: number | null = null;
-  /** What the present step still needs, once a part of it is done. */
   #missing: string[] = [];
 
   constructor(
+    connection: Connection,
     private readonly parts: LearnParts,
     private readonly lessons: Lessons,
     private readonly doors: LearnDoors,
@@ -71,6 +68,7 @@ export class LearnPanel {
     });
     this.host.append(course.host, this.#cards);
     const check = (): void => this.#check();
+    this.#hidden = new HiddenTests(connection, parts.program, check);
     parts.swarm.frame.on(check);
     parts.swarm.definition.on(check);
     parts.tests.states.on(check);
@@ -102,7 +100,11 @@ export class LearnPanel {
       this.#note([]);
       return;
     }
-    const situation = situationOf(this.parts);
+    const situation = situationOf({ ...this.parts, hidden: this.#hidden });
+    if (situation.tests > 0 && situation.passed === situation.tests) {
+      const checks = lesson.steps[this.#step]?.checks ?? [];
+      checks.forEach(check => check.is === "passes" && void this.#hidden.run(check.test));
+    }
     const advanced = this.#progress.advance(lesson, this.#step, situation);
     if (advanced) {
       this.strip.fold();
@@ -119,12 +121,10 @@ export class LearnPanel {
     }
   }
 
-  /** Whether what the lesson is about is there. */
   #isHere(lesson: LessonEntry): boolean {
     return lesson.program === null || this.#isOpen(lesson);
   }
 
-  /** What the address of the page is, if it is that of a step. */
   get address(): string | null {
     const lesson = this.#lesson;
     return lesson !== null && this.#isHere(lesson) ? stepAddress(lesson, this.#step) : null;
@@ -172,7 +172,6 @@ export class LearnPanel {
     return isLessonPath(lesson, path.value) || path.value === savedFile(folder, lesson.name);
   }
 
-  /** Notes what a step still needs. */
   #note(needed: string[]): void {
     if (needed.join() !== this.#missing.join()) {
       this.#missing = needed;
@@ -260,7 +259,6 @@ export class LearnPanel {
     this.doors.replace(text);
   }
 
-  /** Brings back a program that was replaced. */
   #bringBack(lesson: LessonEntry, text: string): void {
     this.#open(lesson, lesson.program ?? "");
     this.#replace(lesson, text);
@@ -278,11 +276,18 @@ export class LearnPanel {
   #show(): void {
     const all = this.lessons.list.value;
     const finished = all.filter(lesson => this.#progress.isFinished(lesson)).length;
+    const next = this.#lesson ?? all.find(one => !this.#progress.isFinished(one)) ?? null;
     fill(
       this.#cards,
       ...this.lessons.findings.map(findingElement),
-      element("p", { class: "dim" }, `${finished} of ${all.length} lessons are done.`),
-      element("ol", { class: "lessons" }, ...all.map((lesson, i) => this.#card(lesson, i))),
+      element(
+        "p",
+        { class: "row" },
+        next !== null &&
+          button(`Go on: ${next.title}`, () => this.#begin(next), { class: "primary", "data-do": "go-on" }),
+        element("span", { class: "dim" }, `${finished} of ${all.length} lessons are done.`),
+      ),
+      ...this.#chapters(all),
     );
     const lesson = this.#lesson;
     this.strip.show(lesson, {
@@ -303,34 +308,45 @@ export class LearnPanel {
     return this.#progress.isFinished(lesson) ? lesson.steps.length : this.#step;
   }
 
-  #card(lesson: LessonEntry, index: number): HTMLElement {
+  #chapters(all: LessonEntry[]): HTMLElement[] {
+    const parts: HTMLElement[] = [];
+    let list = element("ol", { class: "lessons" });
+    all.forEach((lesson, i) => {
+      if (i === 0 || lesson.chapter !== null) {
+        list = element("ol", { class: "lessons" });
+        parts.push(...(lesson.chapter === null ? [] : [element("h2", {}, lesson.chapter)]), list);
+      }
+      list.append(this.#entry(lesson, i));
+    });
+    return parts;
+  }
+
+  /** A lesson with what begins it; its text and steps are folded away. */
+  #entry(lesson: LessonEntry, index: number): HTMLElement {
     const done = this.#progress.steps(lesson);
     const finished = this.#progress.isFinished(lesson);
     const label = finished ? "Do it again" : done.size > 0 || lesson === this.#lesson ? "Go on" : "Begin";
-    const next = this.lessons.list.value.find(other => !this.#progress.isFinished(other));
-    const suggested = lesson === (this.#lesson ?? next);
     return element(
       "li",
-      { class: "card lesson", "data-lesson": lesson.name, "data-finished": finished },
+      { class: "lesson", "data-lesson": lesson.name, "data-finished": finished },
       element(
-        "header",
+        "details",
         {},
-        element("span", { class: "number", "aria-hidden": "true" }, finished ? "✓" : String(index + 1)),
-        element("h3", {}, lesson.title),
+        element(
+          "summary",
+          {},
+          element("span", { class: "number", "aria-hidden": "true" }, finished ? "✓" : String(index + 1)),
+          element("h3", {}, lesson.title),
+        ),
+        ...lesson.text.map(text => element("p", {}, ...prose(text))),
+        element("ul", { class: "steps" }, ...lesson.steps.map((step, i) => stepElement(step.task, done.has(i)))),
       ),
-      ...lesson.text.map(text => element("p", {}, ...prose(text))),
-      element("ul", { class: "steps" }, ...lesson.steps.map((step, i) => stepElement(step.task, done.has(i)))),
       scoreElement(lesson, this.#progress.size(lesson), "Your smallest so far:"),
-      button(label, () => this.#begin(lesson), {
-        class: suggested && !finished ? "primary" : "",
-        "aria-label": `${label}: ${lesson.title}`,
-        "data-do": "begin",
-      }),
+      button(label, () => this.#begin(lesson), { "aria-label": `${label}: ${lesson.title}`, "data-do": "begin" }),
     );
   }
 }
 
-/** What is wrong with a lesson of an author. */
 function findingElement({ message, help, labels }: Finding): HTMLElement {
   const place = labels[0] === undefined ? "" : `${labels[0].file}:${labels[0].start.line}: `;
   return element(

@@ -11,7 +11,6 @@ const SIZES = "lesson-sizes";
 export class Progress {
   /** The steps that are done by the name of the lesson, or how many of the first ones are. */
   readonly #done: Record<string, number[] | number>;
-  /** The size of the smallest circuit that was right. */
   readonly #sizes: Record<string, number>;
 
   constructor(
@@ -29,7 +28,6 @@ export class Progress {
     return new Set(all.filter(step => step < lesson.steps.length));
   }
 
-  /** How many steps are done. */
   done(lesson: LessonEntry): number {
     return this.steps(lesson).size;
   }
@@ -60,7 +58,6 @@ export class Progress {
     this.#set(lesson, []);
   }
 
-  /** The size of the smallest circuit of a lesson; null if there is none. */
   size(lesson: LessonEntry): number | null {
     return this.#sizes[lesson.name] ?? null;
   }

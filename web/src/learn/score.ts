@@ -7,7 +7,6 @@ import type { Situation } from "./situation";
 
 export const STARS = 3;
 
-/** The size of the present circuit, if it is what the lesson asks for. */
 export function sizeOf(lesson: LessonEntry, situation: Situation): number | null {
   if (lesson.best === null || !isRight(lesson, situation)) {
     return null;

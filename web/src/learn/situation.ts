@@ -16,12 +16,13 @@ export interface Situation {
   /** Whether the rest is about this text. */
   isChecked: boolean;
   errors: number;
-  /** The first error. */
   problem: string | null;
   circuits: number;
   tests: number;
   passed: number;
   failed: number;
+  /** Why the program fails each hidden test that has run, null if it passes. */
+  hidden: ReadonlyMap<string, string | null>;
   /** The claims of the program, those of which all is proved, and those of which a property is refuted. */
   claims: number;
   proved: number;
@@ -34,7 +35,6 @@ export interface Situation {
   outputs: string[];
   /** The threads of a wave machine; 0 if it is none. */
   threads: number;
-  /** The cycles done. */
   now: number;
   /** Cycles after which every change has settled. */
   hold: number;
@@ -48,10 +48,11 @@ interface Parts {
   program: Program;
   swarm: LiveSwarm;
   tests: { states: { value: Map<number, TestState> }; claims: { states: { value: Map<number, ClaimState> } } };
+  hidden: { failures: ReadonlyMap<string, string | null> };
   robots: { designer: { design: { value: Design } }; evolution: { search: { value: Search } } };
 }
 
-export function situationOf({ program, swarm, tests, robots }: Parts): Situation {
+export function situationOf({ program, swarm, tests, robots, hidden }: Parts): Situation {
   // What is known of a text says nothing about the next one.
   const checked = program.isChecked ? program.checked.value : null;
   // The log of another program's swarm says nothing about this one.
@@ -73,6 +74,7 @@ export function situationOf({ program, swarm, tests, robots }: Parts): Situation
     tests: checked?.tests.length ?? 0,
     passed,
     failed: checked === null ? 0 : done.length - passed,
+    hidden: checked === null ? new Map() : hidden.failures,
     claims: checked?.claims.length ?? 0,
     proved: checked === null ? 0 : proved.length,
     refuted: checked === null ? 0 : refuted.length,

@@ -13,25 +13,18 @@ import { STARS, sizeText, starsOf } from "./score";
 const READ = "lessons-read";
 
 interface StripDoors {
-  /** Starts the lesson again. */
   again: (lesson: LessonEntry) => void;
-  /** Brings back a program that was replaced. */
   bringBack: (lesson: LessonEntry, text: string) => void;
   begin: (lesson: LessonEntry) => void;
-  /** Opens the program of the lesson. */
   resume: (lesson: LessonEntry) => void;
-  /** Says what the step still needs. */
   why: () => void;
   leave: () => void;
 }
 
 interface Shown {
   folder: string;
-  /** The number of the step that is shown. */
   step: number;
-  /** The size of the present circuit. */
   size: number | null;
-  /** Where the lesson is in the course. */
   place: string;
   next: LessonEntry | null;
 }
@@ -49,14 +42,12 @@ export class Strip {
     private readonly doors: StripDoors,
   ) {}
 
-  /** Shows what the step still needs. */
   showMissing(missing: string[]): void {
     const before = this.#missing;
     this.#missing = missingElement(missing);
     before.replaceWith(this.#missing);
   }
 
-  /** Shows whether the program of the lesson is in the editor. */
   showPlace(isHere: boolean): void {
     // This is called after each frame.
     if (this.host.dataset["away"] !== String(!isHere)) {
@@ -104,7 +95,6 @@ export class Strip {
     }
   }
 
-  /** The steps as links to them. */
   #steps(lesson: LessonEntry, present: number): HTMLElement {
     const done = this.progress.steps(lesson);
     const link = (step: number): HTMLElement =>
@@ -124,12 +114,10 @@ export class Strip {
     );
   }
 
-  /** Folds the text away, as when a step is done. */
   fold(): void {
     this.#text.isOpen = false;
   }
 
-  /** The text of the lesson, which can be folded away. */
   #about(lesson: LessonEntry): HTMLElement {
     if (this.#text.lesson !== lesson.name) {
       const isNew = !this.#read().includes(lesson.name) && this.progress.done(lesson) === 0;
@@ -150,7 +138,6 @@ export class Strip {
     return about;
   }
 
-  /** The lessons whose text was folded away. */
   #read(): string[] {
     return recall<string[]>(own(READ)) ?? [];
   }
@@ -247,7 +234,6 @@ export function stepElement(task: string, done: boolean): HTMLElement {
   );
 }
 
-/** The size of a circuit, the best one known, and stars. */
 export function scoreElement(lesson: LessonEntry, size: number | null, words: string): HTMLElement | null {
   const { best } = lesson;
   if (best === null || size === null) {

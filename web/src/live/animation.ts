@@ -5,7 +5,6 @@ import { prefersStillness } from "../theme";
 import type { LiveSwarm } from "./swarm";
 
 export interface View {
-  /** Draws the shown moment. */
   draw(): void;
   /** Whether a slow machine may draw it less often than the robots. */
   readonly patient?: boolean;
@@ -19,7 +18,6 @@ const SHARE = 3;
 export class Animation {
   readonly #views: View[] = [];
   readonly #loop = new FrameLoop(seconds => this.#pass(seconds));
-  /** The usual time between two frames, in seconds. */
   #usual = 1 / 60;
   #count = 0;
 
@@ -33,7 +31,6 @@ export class Animation {
     this.wake();
   }
 
-  /** Draws at the next screen frame. */
   wake(): void {
     this.#loop.wake();
   }

@@ -2,7 +2,6 @@
 
 import type { Outline } from "./playback";
 
-/** The middle of an outline along the ground. */
 export function middleOf(outline: Outline): number {
   let sum = 0;
   for (let i = 0; i < outline.length; i += 2) {
@@ -41,7 +40,6 @@ export class LaneGrid {
     return Math.floor(lane / this.columns) * this.laneHeight;
   }
 
-  /** The lane at a place, or null. */
   at(x: number, y: number): number | null {
     const column = Math.min(this.columns - 1, Math.max(0, Math.floor(x / this.laneWidth)));
     const lane = Math.floor(y / this.laneHeight) * this.columns + column;

@@ -6,7 +6,6 @@ import { closeOutside } from "../menu";
 import type { ShownSwarm } from "../protocol";
 import type { LiveSwarm } from "./swarm";
 
-/** The clock: one pulse by hand, or changes by themselves. */
 export class ClockPanel {
   readonly host = element("div", { class: "clock", role: "group", "aria-label": "Clock" });
   #pulse: (() => void) | null = null;
@@ -20,16 +19,13 @@ export class ClockPanel {
 
   #build(): void {
     const definition = this.swarm.definition.value;
-    const bits = bitsOf(definition?.inputs ?? []).filter(bit => bit.port.width === 1);
-    // The steps of a wave machine are its clock.
-    const needless = bits.length === 0 || (definition?.waves?.clock ?? null) !== null;
+    const bits = definition === null ? [] : likelyClock(definition);
+    const [likely] = bits;
     this.#pulse?.();
-    this.host.hidden = needless;
-    if (definition === null || needless) {
+    this.host.hidden = likely === undefined;
+    if (definition === null || likely === undefined) {
       return;
     }
-    const named = bits.find(bit => /^(clk|clock|ck|cp)$/i.test(bit.name));
-    const likely = named ?? (bits[0] as PortBit);
     const which = element(
       "select",
       {
@@ -39,7 +35,7 @@ export class ClockPanel {
           this.#apply(which, half, this.swarm.clock.value !== null);
         },
       },
-      ...bits.map(bit => element("option", { value: bit.index, selected: bit === likely }, bit.name)),
+      ...bits.map(bit => element("option", { value: bit.index }, bit.name)),
     );
     const half = element("input", {
       type: "number",
@@ -66,7 +62,7 @@ export class ClockPanel {
       "data-do": "pulse",
     });
     const parts = [which, pulse, automatic, element("label", { class: "half" }, "every ", half, " cycles")];
-    if (named !== undefined) {
+    if (isClock(likely)) {
       fill(this.host, element("span", { class: "caption" }, "Clock"), ...parts);
       return;
     }
@@ -89,7 +85,11 @@ export class ClockPanel {
 
   #apply(which: HTMLSelectElement, half: HTMLInputElement, on: boolean): void {
     const cycles = Math.max(1, Math.round(Number(half.value)) || 1);
+    const isNew = on && this.swarm.clock.value === null;
     this.swarm.setClock(on ? { bit: Number(which.value), half: cycles } : null);
+    if (isNew && !this.swarm.running.value) {
+      this.swarm.play();
+    }
   }
 
   /** Raises the input, and lowers it again when half a period has passed. */
@@ -116,6 +116,16 @@ export class ClockPanel {
       this.#pulse = null;
     };
   }
+}
+
+/** The inputs that may be the clock, the likely one first; none of a wave machine, whose steps are its clock. */
+export function likelyClock({ inputs, waves }: ShownSwarm): PortBit[] {
+  const bits = (waves?.clock ?? null) === null ? bitsOf(inputs).filter(bit => bit.port.width === 1) : [];
+  return [...bits.filter(isClock), ...bits.filter(bit => !isClock(bit))];
+}
+
+function isClock({ name }: PortBit): boolean {
+  return /^(clk|clock|ck|cp)$/i.test(name);
 }
 
 /** The fewest cycles for which an input may have a value: as a clock, or else until every change has settled. */

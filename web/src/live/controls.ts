@@ -3,6 +3,7 @@
 import { counted } from "../counted";
 import { button, changeIcon, element, iconButton } from "../element";
 import type { View } from "./animation";
+import { RunUntil } from "./until";
 import { REAL_TIME, type LiveSwarm } from "./swarm";
 
 /** Speeds as multiples of real time; null is as fast as possible. */
@@ -15,10 +16,8 @@ export const SPEEDS: [string, number | null][] = [
   ["max", null],
 ];
 
-/** Fewer robots have room in lanes. */
 const CROWD = 24;
 
-/** The most cycles that are done at once. */
 const MOST_CYCLES = 1000;
 
 export class Controls implements View {
@@ -26,7 +25,6 @@ export class Controls implements View {
   readonly #play = iconButton("play", "Play", () => this.toggle(), { class: "icon primary", "data-do": "play" });
   readonly #waveStep = button("One step", () => this.swarm.step(this.#cycles), { "data-do": "wave-step" });
   readonly #crowd = iconButton("crowd", "All robots at once", () => this.#gather(), { "data-do": "crowd" });
-  /** Cycles of a step of a wave machine. */
   #cycles = 1;
   readonly #slider = element("input", {
     type: "range",
@@ -42,11 +40,9 @@ export class Controls implements View {
   readonly #rate = element("output", { class: "rate", title: "Cycles simulated in a second" });
   #asked: number | null = null;
 
-  /** With buttons for what is `beside` the robots, and for how `large` they are. */
   constructor(
     private readonly swarm: LiveSwarm,
-    beside: HTMLElement[],
-    large: HTMLElement[],
+    large: HTMLElement,
   ) {
     this.host.append(
       iconButton("reset", "Back to the start", () => swarm.reset(), { "data-do": "reset" }),
@@ -54,12 +50,12 @@ export class Controls implements View {
       iconButton("step", "One cycle (.)", () => swarm.step(), { "data-do": "step" }),
       this.#waveStep,
       this.#crowd,
-      ...beside,
       this.#speeds(),
+      new RunUntil(swarm).host,
       this.#slider,
       this.#cycle,
       this.#rate,
-      ...large,
+      large,
     );
     swarm.running.follow(running => {
       changeIcon(this.#play, running ? "pause" : "play", running ? "Pause (Space)" : "Play (Space)");

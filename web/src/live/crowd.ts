@@ -16,7 +16,6 @@ const LEAST = 6;
 const VOXELS = 64;
 const SILHOUETTES = 24;
 
-/** The grid that shows `count` robots at once. */
 export function crowdGrid(count: number, width: number, height: number): LaneGrid {
   const columns = Math.max(1, Math.ceil(Math.sqrt((count * width) / Math.max(1, height * SHAPE))));
   return new LaneGrid(count, columns, width, Math.max(LEAST, height / Math.ceil(count / columns)));

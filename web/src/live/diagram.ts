@@ -27,7 +27,6 @@ export abstract class Diagram implements View {
   }
 
   abstract draw(): void;
-  /** Points at what is drawn at this place. */
   protected abstract point(x: number, y: number): void;
 
   protected get label(): number {
@@ -38,7 +37,6 @@ export abstract class Diagram implements View {
     return Math.max(1, this.pane.width - this.label - 8);
   }
 
-  /** The cycles that are in view. */
   protected range(): [number, number] {
     const start = this.timeline.start(this.span, this.swarm.playback.time);
     return [start, start + this.span / this.timeline.zoom.value];
@@ -52,7 +50,6 @@ export abstract class Diagram implements View {
     return this.range()[0] + (x - this.label) / this.timeline.zoom.value;
   }
 
-  /** Numbers of cycles below, and a line at the present. */
   protected drawAxis(pen: Pen, top: number, bottom: number): void {
     const [start, end] = this.range();
     const step = [1, 2, 5, 10, 20, 50, 100].find(size => size * this.timeline.zoom.value > 42) ?? 200;
@@ -112,7 +109,7 @@ export abstract class Diagram implements View {
 
   #seek(cycle: number): void {
     const { first, last } = this.swarm.log;
-    this.swarm.seek(Math.min(last, Math.max(first, cycle)));
+    void this.swarm.seek(Math.min(last, Math.max(first, cycle)));
   }
 
   #press(event: KeyboardEvent): void {

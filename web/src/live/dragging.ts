@@ -10,7 +10,6 @@ type Move = (by: Place, factor: number, at: Place) => void;
 const SLACK = 4;
 
 export class Dragging {
-  /** Where the pointers that are down are. */
   readonly #pointers = new Map<number, Place>();
   #isClick = true;
 
@@ -72,7 +71,6 @@ export class Dragging {
     window.addEventListener("pointercancel", end);
   }
 
-  /** A pointer has moved to a place. */
   #moved(pointer: number, to: Place): void {
     const from = this.#pointers.get(pointer) ?? to;
     const other = [...this.#pointers].find(([id]) => id !== pointer)?.[1];

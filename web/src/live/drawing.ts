@@ -5,15 +5,12 @@ import type { Colors } from "../colors";
 import type { Outline } from "./playback";
 import { threadColor } from "./waves";
 
-/** A part of the canvas that shows a stretch of ground. */
 export interface Lane {
   left: number;
   top: number;
   width: number;
   height: number;
-  /** The height of the ground on the canvas. */
   ground: number;
-  /** Pixels in a voxel. */
   scale: number;
   /** The voxel in the middle. */
   camera: number;

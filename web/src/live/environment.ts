@@ -14,7 +14,6 @@ export interface MemoryRow {
 
 /** Words of one bit are shown as numbers of so many, the lowest address the lowest bit. */
 const PACKED = 32;
-/** The most rows that are shown. */
 const MOST_ROWS = 64;
 
 /** The last of some things that began before a cycle; cycles count from 1, and 0 is the start. */
@@ -22,7 +21,6 @@ function lastBegun<T extends [begin: number, ...rest: unknown[]]>(all: T[], cycl
   return all.filter(([begin]) => begin < Math.max(cycle, 1)).at(-1);
 }
 
-/** What has been written by a cycle. */
 export function screenAt(screen: [begin: number, text: string][], cycle: number): string {
   return screen
     .filter(([begin]) => begin < cycle)
@@ -30,12 +28,10 @@ export function screenAt(screen: [begin: number, text: string][], cycle: number)
     .join("");
 }
 
-/** The addresses that are read in a cycle. */
 export function readAt({ reads }: ShownMemory, cycle: number): number[] {
   return reads.flatMap(places => lastBegun(places, cycle)?.[1] ?? []);
 }
 
-/** The word at an address in a cycle. */
 export function wordAt({ words, writes }: ShownMemory, address: number, cycle: number): bigint {
   const written = writes.filter(([begin, place]) => begin < cycle && place === address).at(-1);
   return BigInt(`0x${written?.[2] ?? words[address] ?? "0"}`);

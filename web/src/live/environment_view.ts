@@ -7,7 +7,6 @@ import type { ShownEnvironment, ShownMemory } from "../protocol";
 import { memoryRows, readAt, screenAt, wordAt } from "./environment";
 import { numberText } from "./numbers";
 
-/** Its parts, and what brings them to a cycle. */
 export function environmentView({ name, screen, memories }: ShownEnvironment): {
   parts: HTMLElement[];
   show: (cycle: number) => void;

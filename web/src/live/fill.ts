@@ -36,8 +36,9 @@ export class Filling {
   }
 
   #show(): void {
-    for (const [name, { made, what }] of this.#panes) {
+    for (const [name, { pane, made, what }] of this.#panes) {
       const isFilled = this.#filled === name;
+      pane.parentElement?.toggleAttribute("data-full", isFilled);
       changeIcon(made, isFilled ? "close" : "fill", isFilled ? "Back (Esc)" : `${what} fill the page (F)`);
       made.setAttribute("aria-pressed", String(isFilled));
     }

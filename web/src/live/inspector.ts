@@ -9,12 +9,10 @@ import type { LiveSwarm } from "./swarm";
 const HINT = "Point at a robot or a net to see it in all views. Click a robot to follow it alone.";
 
 export class Inspector implements View {
-  readonly host = element("div", { class: "inspector" });
-  readonly #line = element("p", { class: "line" });
-  readonly #facts = element("div", { class: "facts", hidden: true });
+  readonly host = element("div", { class: "facts", hidden: true });
+  readonly line = element("p", { class: "line" });
 
   constructor(private readonly swarm: LiveSwarm) {
-    this.host.append(this.#line, this.#facts);
     swarm.definition.on(() => this.#show());
     swarm.selection.pointed.on(() => this.#show());
     swarm.selection.followed.on(() => this.#show());
@@ -32,8 +30,8 @@ export class Inspector implements View {
     const robot = followed.value === null ? null : (this.swarm.definition.value?.robots[followed.value] ?? null);
     this.#showFacts(robot);
     const text = pointed.value === null ? this.#rest() : this.#describe();
-    if (this.#line.textContent !== text) {
-      this.#line.textContent = text;
+    if (this.line.textContent !== text) {
+      this.line.textContent = text;
     }
   }
 
@@ -64,19 +62,19 @@ export class Inspector implements View {
   }
 
   #showFacts(robot: SwarmRobot | null): void {
-    const shown = this.#facts.dataset["net"] ?? null;
+    const shown = this.host.dataset["net"] ?? null;
     if (shown === (robot?.net ?? null)) {
       return;
     }
-    this.#facts.hidden = robot === null;
+    this.host.hidden = robot === null;
     if (robot === null) {
-      delete this.#facts.dataset["net"];
-      this.#facts.replaceChildren();
+      delete this.host.dataset["net"];
+      this.host.replaceChildren();
       return;
     }
-    this.#facts.dataset["net"] = robot.net;
+    this.host.dataset["net"] = robot.net;
     fill(
-      this.#facts,
+      this.host,
       button("Show all robots", () => this.swarm.selection.followed.set(null), { "data-do": "all" }),
       element("h3", {}, robot.named ? `${robot.label} = ${gateName(robot.function)}` : gateName(robot.function)),
       truthTableElement(robot.function),

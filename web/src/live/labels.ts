@@ -9,10 +9,9 @@ export type Measure = (text: string, size: number, bold: boolean) => number;
 /** What one sees: parts with their names, gates too, or the robots that play them. */
 export type Level = "blocks" | "gates" | "robots";
 
-/** The smallest letters, in pixels. */
 export const LEAST = 11;
 /** The smallest scales at which there is room for a gate's name, for a robot, for two lines above it, and for its name. */
-export const GATES = 0.28;
+const GATES = 0.28;
 const ROBOTS = 0.46;
 const TWO_LINES = 0.6;
 const ROBOT_NAMES = 0.8;
@@ -40,10 +39,17 @@ export function fitText(text: string, room: number, width: (text: string) => num
   return "";
 }
 
-/** A text of the drawing as it came. */
+/** As much of a call such as `xor(and(a, b), c)` as there is room for, without what is inside of parentheses first. */
+export function fitCall(text: string, room: number, width: (text: string) => number): string {
+  const shorter = [text, text.replace(/(?<=\(.*)\((?:[^()]|\([^()]*\))*\)/g, "(…)"), text.replace(/\(.*$/, "(…)")];
+  return shorter.find(wanted => width(wanted) <= room) ?? fitText(text, room, width, true);
+}
+
 interface Line {
   element: SVGTextElement;
   text: string;
+  /** What stands there where the text has no room. */
+  short: string;
   /** In units of the drawing. */
   size: number;
   bold: boolean;
@@ -51,7 +57,6 @@ interface Line {
 
 type Kind = "cell" | "part" | "input" | "output" | "box";
 
-/** A box with its texts. */
 interface Labelled {
   kind: Kind;
   box: Box;
@@ -113,9 +118,10 @@ export class Labels {
     const number = (name: string): number => Number(frame.getAttribute(name));
     const lines = texts
       .filter(text => !text.classList.contains("thread"))
-      .map(text => ({
+      .map((text, i) => ({
         element: text,
-        text: text.textContent ?? "",
+        text: (i === 0 ? part?.dataset["label"] : undefined) ?? text.textContent ?? "",
+        short: text.textContent ?? "",
         size: Number(text.getAttribute("font-size")),
         bold: text.getAttribute("font-weight") === "bold",
       }));
@@ -130,7 +136,6 @@ export class Labels {
     return this.measure(text, size, bold);
   }
 
-  /** Whether a port has room for its name in its box. */
   #fits({ box, lines: [name] }: Labelled, scale: number): boolean {
     const room = name !== undefined && this.#width(name, LEAST) <= box.width * scale - 2 * BESIDE;
     return room && box.height * scale >= LEAST + 1;
@@ -190,11 +195,13 @@ export class Labels {
   /** Lines in the middle of their box, as many as there is room for. */
   #arrangeLines({ box }: Labelled, lines: Line[], scale: number, anchor: Anchor): void {
     const line = Math.max(LINE, 15 * scale) / scale;
-    const count = Math.min(lines.length, Math.floor((box.height * scale - 4) / LINE));
-    lines.slice(count).forEach(hide);
-    const top = box.y + box.height / 2 - (count * line) / 2;
-    lines.slice(0, count).forEach((text, i) => {
-      const room = box.width * scale - 2 * BESIDE;
+    const room = box.width * scale - 2 * BESIDE;
+    // Only the name may be cut.
+    const whole = lines.filter((text, i) => i === 0 || this.#width(text, Math.max(LEAST, text.size * scale)) <= room);
+    const shown = whole.slice(0, Math.floor((box.height * scale - 4) / LINE));
+    lines.filter(text => !shown.includes(text)).forEach(hide);
+    const top = box.y + box.height / 2 - (shown.length * line) / 2;
+    shown.forEach((text, i) => {
       this.#place(text, box.x + box.width / 2, top + (i + 0.78) * line, anchor, room, scale);
     });
   }
@@ -230,8 +237,10 @@ export class Labels {
     const size = Math.max(LEAST, line.size * scale);
     const keepsEnd = /[/[]|^…/.test(line.text);
     // A name that would be cut may be less bold.
-    const bold = line.bold && this.measure(line.text, size, true) <= room;
-    const text = fitText(line.text, room, text => this.measure(text, size, bold), keepsEnd);
+    const fits = (text: string, isBold: boolean): boolean => this.measure(text, size, isBold) <= room;
+    const wanted = fits(line.text, false) ? line.text : line.short;
+    const bold = line.bold && fits(wanted, true);
+    const text = fitText(wanted, room, text => this.measure(text, size, bold), keepsEnd);
     line.element.setAttribute("font-weight", bold ? "bold" : "normal");
     show(line.element, text !== "");
     if (text !== "") {

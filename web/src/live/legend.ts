@@ -27,7 +27,6 @@ export function legend(looks: { look: VoxelLook; name: string }[], threads: numb
   );
 }
 
-/** A square that looks like a voxel. */
 export function swatch(look: VoxelLook | undefined): HTMLElement {
   const canvas = element("canvas", { class: "swatch", width: 32, height: 32, "aria-hidden": "true" });
   const pen = canvas.getContext("2d");

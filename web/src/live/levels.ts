@@ -5,12 +5,9 @@ import type { Pen } from "./pane";
 
 /** Where a row of a waveform is on the canvas, and what its colors are. */
 export interface Band {
-  /** The heights of 1 and 0. */
   high: number;
   low: number;
-  /** The beginning of a cycle. */
   x: (cycle: number) => number;
-  /** Texts begin no farther left. */
   left: number;
   colors: Pick<Colors, "one" | "zero" | "dim" | "ink">;
 }

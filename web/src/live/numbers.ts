@@ -13,7 +13,6 @@ export const FORMATS: [NumberFormat, string][] = [
   ["signed", "signed"],
 ];
 
-/** What has a value: a port or a register. */
 export interface Valued {
   width: number;
   members?: [string, string][];
@@ -26,7 +25,6 @@ function known(format: unknown): NumberFormat {
   return FORMATS.find(([name]) => name === format)?.[0] ?? "names";
 }
 
-/** A value of so many bits as text. */
 export function numberText(value: bigint, { width, members = [] }: Valued, format = numberFormat.value): string {
   switch (format) {
     case "names":

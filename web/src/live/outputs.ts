@@ -2,13 +2,16 @@
 
 import { element, fill } from "../element";
 import { offsetOf, toNumber } from "../ports";
-import type { StimulusSource, Column } from "../protocol";
+import type { StimulusSource, Column, ShownSwarm } from "../protocol";
 import type { View } from "./animation";
 import { FORMATS, numberFormat, numberText, type NumberFormat } from "./numbers";
 import type { LiveSwarm } from "./swarm";
+import { logicOf } from "./truth";
 
 /** Wider buses have no lamps, only their number. */
 const LIT = 16;
+/** The robots of larger circuits need so long that what they will show is said at once. */
+const LARGE = 100;
 
 export class OutputPanel implements View {
   readonly host = element("div", { class: "outputs", role: "group", "aria-label": "Outputs" });
@@ -17,6 +20,7 @@ export class OutputPanel implements View {
   constructor(private readonly swarm: LiveSwarm) {
     swarm.definition.on(() => this.#build());
     numberFormat.on(() => this.draw());
+    swarm.inputs.on(() => this.draw());
   }
 
   draw(): void {
@@ -36,6 +40,7 @@ export class OutputPanel implements View {
         const start = offsetOf(ports, port);
         return this.#port(port, definition?.shown.slice(start, start + port.width) ?? []);
       }),
+      definition !== null && definition.robots.length > LARGE && this.#logic(definition),
       this.#hasNumbers() && formatChoice(),
     );
     this.draw();
@@ -47,6 +52,28 @@ export class OutputPanel implements View {
     const wide = [...inputs, ...outputs].some(({ width, members }) => width > 1 || members !== undefined);
     const kept = [...registers.map(({ robots }) => robots), ...(waves?.registers ?? []).map(({ bits }) => bits)];
     return wide || kept.some(bits => bits.length > 1);
+  }
+
+  #logic(definition: ShownSwarm): HTMLElement | null {
+    const outputsOf = logicOf(definition);
+    const text = element("output", { class: "logic", title: "What the robots will show once they have settled" });
+    let known = "";
+    if (outputsOf === null) {
+      return null;
+    }
+    this.#updates.push(() => {
+      const key = `${numberFormat.value} ${this.swarm.inputs.value}`;
+      if (key !== known) {
+        known = key;
+        const bits = [...outputsOf(this.swarm.inputs.value)].map(Number);
+        const values = definition.outputs.map(port => {
+          const start = offsetOf(definition.outputs, port);
+          return `${port.name} = ${numberText(toNumber(bits.slice(start, start + port.width)), port)}`;
+        });
+        text.textContent = `soon ${values.join(", ")}`;
+      }
+    });
+    return text;
   }
 
   #port(port: Column, sources: StimulusSource[]): HTMLElement {

@@ -34,7 +34,6 @@ export class CanvasPane {
     new ResizeObserver(note).observe(this.host);
   }
 
-  /** Whether it can be seen at all. */
   get visible(): boolean {
     return this.width > 0 && this.height > 0 && !document.hidden;
   }

@@ -3,8 +3,6 @@
 import { counted } from "../counted";
 import { button, element, fill } from "../element";
 import type { Choice, Program, Stage as CompileStage } from "../program";
-import { recall, remember } from "../memory";
-import { totalWidth } from "../ports";
 import type { Controls } from "./controls";
 import type { LiveSwarm } from "./swarm";
 import { SwarmViews, summaryOf } from "./views";
@@ -17,9 +15,8 @@ export class SwarmPanel {
   constructor(
     private readonly program: Program,
     private readonly swarm: LiveSwarm,
-    takeAway: HTMLElement,
   ) {
-    const head = element("div", { class: "head" }, this.#choices, this.#status, firstHint(swarm), takeAway);
+    const head = element("div", { class: "head" }, this.#choices, this.#status);
     this.#views = new SwarmViews(swarm, head);
     this.#choices.onchange = () => program.choose(JSON.parse(this.#choices.value) as Choice);
     program.checked.on(() => this.#listChoices());
@@ -93,7 +90,6 @@ export class SwarmPanel {
     return this.program.checked.value?.circuits.length === 0;
   }
 
-  /** Whether there is no swarm of the program. */
   #isVacant(): boolean {
     return this.swarm.definition.value === null || this.program.shown !== this.program.path.value;
   }
@@ -105,26 +101,4 @@ export class SwarmPanel {
     const definition = this.swarm.definition.value;
     return definition === null ? "" : summaryOf(definition);
   }
-}
-
-/** Until the first switch was flipped. */
-function firstHint(swarm: LiveSwarm): HTMLElement {
-  const hint = element(
-    "span",
-    { class: "hint", role: "note", hidden: recall("flipped") === true },
-    "▼ flip a switch: robots turn round",
-  );
-  const note = (): void => {
-    if (swarm.inputs.value.includes("1") || swarm.clock.value !== null) {
-      hint.hidden = true;
-      remember("flipped", true);
-    }
-  };
-  swarm.inputs.on(note);
-  swarm.clock.on(note);
-  swarm.definition.on(definition => {
-    const switches = totalWidth(definition?.inputs ?? []) - Number((definition?.waves?.clock ?? null) !== null);
-    hint.classList.toggle("needless", definition !== null && switches === 0);
-  });
-  return hint;
 }

@@ -14,7 +14,6 @@ export function pictureSide({ width }: Column): number {
   return Number.isInteger(side) && side >= LEAST && side <= MOST ? side : 0;
 }
 
-/** The picture of a port, and what brings it up to date. */
 export interface PictureInput {
   host: HTMLElement;
   update: () => void;

@@ -11,7 +11,6 @@ const DELAY = 0.75;
 const FARTHEST = 3;
 /** Faster than this, single poses cannot be seen, and the newest is shown at once. */
 const FASTEST = 40;
-/** A step is shown in real time. */
 const STEP_RATE = 4;
 
 export class Playback {
@@ -23,7 +22,6 @@ export class Playback {
   #posesPerCycle = 1;
   #cycles = new Map<number, Map<number, Poses>>();
 
-  /** The cycle that is shown; 0 at the start. */
   get cycle(): number {
     return Math.ceil(this.time - 1e-9);
   }
@@ -64,7 +62,6 @@ export class Playback {
     return true;
   }
 
-  /** Goes to the newest pose at once. */
   finish(): void {
     this.time = this.#now;
   }

@@ -7,7 +7,7 @@ import { sameSource } from "../selection";
 import type { LiveSwarm } from "./swarm";
 import type { View } from "./animation";
 import { Dragging } from "./dragging";
-import { GATES, Labels, levelOf, measuring } from "./labels";
+import { Labels, levelOf, measuring } from "./labels";
 import { addHalo, drawingOf, leaveDrawing, pathTo, placeBodies, threadNumber } from "./schematic_parts";
 import { Viewport, type Box } from "./viewport";
 import { threadColor } from "./waves";
@@ -20,18 +20,11 @@ interface Marked {
   number: Element | null;
   thread: number | null;
 }
-/**
- * The scale at which a drawing that is too large begins, a good one for reading, a step of the zoom, and the share of the
- * pane at which a part is opened.
- */
-const FIRST = 0.36;
+/** A scale that is good for reading, a step of the zoom, and the share of the pane at which a part is opened. */
 const READABLE = 0.8;
 const STEP = 1.25;
 const OPENS = 0.5;
-/** Pixels around the whole, and above it, where the buttons are. */
 const MARGIN = 10;
-const BUTTONS = 36;
-/** That of the drawing. */
 const FONT = '"DejaVu Sans", Verdana, sans-serif';
 
 export class Schematic implements View {
@@ -41,10 +34,13 @@ export class Schematic implements View {
     role: "group",
     "aria-label": "Schematic of the circuit",
   });
-  /** The buttons above it. */
-  readonly tools: HTMLElement;
+  readonly tools = [
+    iconButton("more", "Zoom in (+)", () => this.#zoom(STEP)),
+    iconButton("less", "Zoom out (-)", () => this.#zoom(1 / STEP)),
+    iconButton("whole", "Show all of the schematic (0)", () => this.#fit()),
+  ];
   /** The sheets from the whole to the one that is shown. */
-  readonly #crumbs = element("nav", { class: "crumbs", "aria-label": "Part of the circuit" });
+  readonly crumbs = element("nav", { class: "crumbs", "aria-label": "Part of the circuit" });
   #schematic: SchematicPages = { sheets: [], bodies: [], homes: [] };
   #sheet = 0;
   #svg: SVGSVGElement | null = null;
@@ -54,18 +50,11 @@ export class Schematic implements View {
   #labels: Labels | null = null;
   #whole: Box = { x: 0, y: 0, width: 1, height: 1 };
   readonly #view = new Viewport();
-  /** What is shown after the pane has another size: what is seen at first, the whole, or what the reader chose. */
-  #shows: "first" | "whole" | "own" = "first";
+  /** Whether the reader has zoomed or moved; else the whole is shown in a pane of any size. */
+  #isOwn = false;
   readonly #measure = measuring(FONT);
 
   constructor(private readonly swarm: LiveSwarm) {
-    this.tools = element(
-      "div",
-      { class: "zoom" },
-      iconButton("more", "Zoom in (+)", () => this.#zoom(STEP)),
-      iconButton("less", "Zoom out (-)", () => this.#zoom(1 / STEP)),
-      iconButton("whole", "Show all of the schematic (0)", () => this.#fit()),
-    );
     swarm.definition.on(definition => {
       this.#schematic = definition?.schematic ?? { sheets: [], bodies: [], homes: [] };
       this.#load(0);
@@ -105,9 +94,7 @@ export class Schematic implements View {
     this.#view.width = Math.max(0, width - 2 * this.host.clientLeft);
     this.#view.height = Math.max(0, height - 2 * this.host.clientTop);
     if (this.#view.width > 0 && this.#view.height > 0) {
-      if (hidden || this.#shows === "first") {
-        this.#showFirst();
-      } else if (this.#shows === "whole") {
+      if (hidden || !this.#isOwn) {
         this.#fit();
       } else {
         this.#show();
@@ -140,17 +127,17 @@ export class Schematic implements View {
     this.#whole = leaveDrawing(this.#svg);
     placeBodies(this.#svg, bodies);
     fill(
-      this.#crumbs,
+      this.crumbs,
       ...pathTo(sheets, sheet).map(at => {
         const { name, about } = sheets[at] ?? { name: "", about: "" };
         return button(name, () => this.#open(at), { title: about, "aria-current": at === sheet ? "page" : null });
       }),
     );
-    this.#crumbs.hidden = sheets.length < 2;
-    this.host.replaceChildren(this.#crumbs, this.tools, this.#svg);
+    this.crumbs.hidden = sheets.length < 2;
+    this.host.replaceChildren(this.#svg);
     this.#mark(this.#svg);
     this.#labels = new Labels(this.#svg, this.#measure);
-    this.#showFirst();
+    this.#fit();
   }
 
   #mark(svg: SVGSVGElement): void {
@@ -174,6 +161,10 @@ export class Schematic implements View {
         part.setAttribute("role", "button");
         part.setAttribute("aria-label", `open ${part.querySelector("title")?.textContent ?? name}`);
       } else if (kind === "cell") {
+        const robot = this.swarm.definition.value?.robots[Number(name)];
+        if (robot?.named === false) {
+          part.dataset["label"] = robot.label;
+        }
         // One robot for the tab key, and arrows for the others: a large circuit is passed as quickly as a small one.
         part.setAttribute("tabindex", this.#robots.length === 0 ? "0" : "-1");
         this.#robots.push(part);
@@ -216,52 +207,34 @@ export class Schematic implements View {
     this.#labels?.arrange(this.#view.scale, this.#most());
   }
 
-  /** The most pixels of a port's name beside the drawing. */
   #most(): number {
     return 0.22 * this.#view.width;
   }
 
   #fit(): void {
-    this.#shows = "whole";
+    if (this.#view.width === 0) {
+      return;
+    }
+    this.#isOwn = false;
     this.#view.fit(this.#whole, scale => {
       const [left, right] = this.#labels?.beside(scale) ?? [0, 0];
       const most = this.#most();
       return {
         left: MARGIN + Math.min(left, most),
         right: MARGIN + Math.min(right, most),
-        top: BUTTONS,
+        top: MARGIN,
         bottom: MARGIN,
       };
     });
     this.#show();
   }
 
-  /** All of it, or, if that cannot be read, its left edge with the first box or robot. */
-  #showFirst(): void {
-    if (this.#view.width === 0) {
-      return;
-    }
-    this.#fit();
-    const first = this.#svg?.querySelector<SVGGraphicsElement>('[data-id^="part-"], [data-id^="cell-"]');
-    if (first && this.#view.scale < GATES) {
-      const left = Math.min(this.#labels?.beside(FIRST)[0] ?? 0, this.#most()) + MARGIN;
-      const across = this.#view.width / FIRST;
-      const { y, height } = first.getBBox();
-      const { x, width } = this.#whole;
-      const seen = width < across ? { x, width } : { x: x - left / FIRST, width: across };
-      this.#view.center({ ...seen, y, height }, FIRST);
-      this.#show();
-    }
-    this.#shows = "first";
-  }
-
   #center(part: SVGGraphicsElement, scale: number): void {
-    this.#shows = "own";
+    this.#isOwn = true;
     this.#view.center(part.getBBox(), scale);
     this.#show();
   }
 
-  /** Brings the robot that is followed into view. */
   #reveal(robot: number | null): void {
     const home = robot === null ? undefined : this.#schematic.homes[robot];
     if (home !== undefined && home !== this.#sheet) {
@@ -270,7 +243,7 @@ export class Schematic implements View {
       this.draw();
     }
     const part = this.#svg?.querySelector<SVGGraphicsElement>(`[data-id="cell-${robot}"]`);
-    if (part && robot !== null && this.#shows === "own") {
+    if (part && robot !== null && this.#isOwn) {
       this.#center(part, Math.max(READABLE, this.#view.scale));
     }
   }
@@ -287,7 +260,7 @@ export class Schematic implements View {
       }
       return;
     }
-    this.#shows = "own";
+    this.#isOwn = true;
     this.#view.zoom(factor, x, y);
     const part = factor > 1 ? this.#partAt(x, y) : null;
     if (part === null) {
@@ -297,7 +270,6 @@ export class Schematic implements View {
     }
   }
 
-  /** The part that fills much of the pane at a place. */
   #partAt(x: number, y: number): number | null {
     const { box, scale, width, height } = this.#view;
     const [across, down] = [box.x + x / scale, box.y + y / scale];
@@ -374,7 +346,7 @@ export class Schematic implements View {
     this.#robots.forEach((robot, i) => (robot.tabIndex = i === index ? 0 : -1));
     const robot = this.#robots[index];
     robot?.focus();
-    if (robot instanceof SVGGraphicsElement && this.#shows === "own") {
+    if (robot instanceof SVGGraphicsElement && this.#isOwn) {
       this.#center(robot, Math.max(READABLE, this.#view.scale));
     }
   }

@@ -18,13 +18,11 @@ export function drawingOf(sheet: SheetPage | undefined): SVGSVGElement | null {
   return drawn instanceof SVGSVGElement ? document.importNode(drawn, true) : null;
 }
 
-/** The sheets from the whole to this one. */
 export function pathTo(sheets: SheetPage[], sheet: number): number[] {
   const outer = sheets[sheet]?.outer ?? null;
   return outer === null ? [sheet] : [...pathTo(sheets, outer), sheet];
 }
 
-/** Puts the bodies of the robots into their places. */
 export function placeBodies(svg: SVGSVGElement, bodies: string[]): void {
   const drawn = bodies.map(text => new DOMParser().parseFromString(text, "image/svg+xml").documentElement);
   for (const place of svg.querySelectorAll<SVGElement>('[data-id^="body-"]')) {
@@ -43,7 +41,6 @@ export function addHalo(net: SVGElement): void {
   net.prepend(halo);
 }
 
-/** A place for the number of a thread. */
 export function threadNumber(cell: SVGElement): Element {
   const number = document.createElementNS(cell.namespaceURI, "text");
   number.setAttribute("class", "thread");

@@ -1,4 +1,4 @@
-// The place of each robot against time: lines that rise walk right, lines that fall walk left.
+// How far each robot has walked since the left edge: lines that rise walk right, lines that fall walk left.
 
 import { sameSource } from "../selection";
 import { colors } from "../colors";
@@ -11,7 +11,6 @@ import type { Timeline } from "./timeline";
 
 /** With more robots, names at the ends of the lines would cover each other. */
 const NAMED = 12;
-/** How near the pointer must be to a line, in pixels. */
 const REACH = 14;
 
 interface Scale {
@@ -69,17 +68,20 @@ export class Spacetime extends Diagram {
     return sameSource(this.swarm.selection.pointed.value, { robot });
   }
 
+  /** The place after a cycle, from where the robot was at the left edge. */
   #place(robot: number, cycle: number): number | null {
-    return cycle === 0 ? 0 : (this.swarm.log.at(cycle)?.places[robot] ?? null);
+    const { log } = this.swarm;
+    const at = (time: number): number | null => (time === 0 ? 0 : (log.at(time)?.places[robot] ?? null));
+    const oldest = log.first === 0 ? 0 : log.first + 1;
+    const [place, start] = [at(cycle), at(Math.max(oldest, Math.floor(this.range()[0])))];
+    return place === null ? null : place - (start ?? 0);
   }
 
-  /** The place at a moment within a cycle. */
   #placeAt(robot: number, time: number): number | null {
     const [from, to] = [this.#place(robot, Math.floor(time)), this.#place(robot, Math.ceil(time))];
     return from === null || to === null ? null : from + (to - from) * (time - Math.floor(time));
   }
 
-  /** The newest cycle that is shown at least in part. */
   #newest(): number {
     const { log, playback, running } = this.swarm;
     return running.value ? playback.cycle : log.last;

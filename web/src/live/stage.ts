@@ -5,21 +5,19 @@ import { enlargement } from "../theme";
 import { LaneGrid, middleOf } from "./camera";
 import { crowdGrid, detailOf, drawDot, drawSilhouette } from "./crowd";
 import { drawLamp, drawRobot, drawStimulus, drawThread, type Lane } from "./drawing";
-import { fitText } from "./labels";
+import { fitCall } from "./labels";
 import { CanvasPane, type Pen } from "./pane";
 import type { LiveSwarm } from "./swarm";
 import { drawWalk, type Area } from "./walk";
 import type { StimulusSource } from "../protocol";
 import type { View } from "./animation";
 import { sameSource } from "../selection";
-import { gateName } from "../gate";
 
 const GAP = 6;
-/** A lane is at least this wide before there are two columns. */
-const COLUMN = 430;
-const FEW = 6;
-/** A lane lower than this has no room for three lines. */
-const LOW = 50;
+/** A lane's least width and height, and what its two lines of text need above the robot. */
+const [NARROW, LOW, HEAD] = [230, 112, 38];
+/** Voxels beside and above each other for which a lane has room. */
+const [WIDE, TALL] = [10, 7];
 
 export class Stage implements View {
   readonly pane: CanvasPane;
@@ -40,7 +38,6 @@ export class Stage implements View {
     this.pane.host.addEventListener("scroll", () => this.#ask(), { passive: true });
   }
 
-  /** Scrolls to a robot. */
   reveal(robot: number): void {
     const lane = this.#robots().indexOf(robot);
     const top = this.#grid.top(lane);
@@ -77,7 +74,6 @@ export class Stage implements View {
     return followed === null ? all() : [followed];
   }
 
-  /** Whether all robots are shown at once. */
   get #together(): boolean {
     return this.swarm.selection.together.value && this.swarm.selection.followed.value === null;
   }
@@ -88,11 +84,17 @@ export class Stage implements View {
       this.#grid = crowdGrid(count, this.pane.width, this.pane.height);
       return;
     }
-    const columns = count <= FEW ? 1 : Math.max(1, Math.floor(this.pane.width / (COLUMN * enlargement.value)));
-    const share = this.pane.height / Math.ceil(count / columns);
-    const least = (count <= FEW ? 44 : 66) * enlargement.value;
-    const height = count === 1 ? this.pane.height : Math.max(least, Math.min(150, share));
-    this.#grid = new LaneGrid(count, columns, this.pane.width, height);
+    const { width, height } = this.pane;
+    const size = enlargement.value;
+    const most = Math.max(1, Math.min(count, Math.floor(width / (NARROW * size))));
+    const grids = Array.from({ length: most }, (_, i) => {
+      const rows = Math.ceil(count / (i + 1));
+      return new LaneGrid(count, Math.ceil(count / rows), width, Math.min(height, Math.max(LOW * size, height / rows)));
+    });
+    // The robots are as large as they can be; where that does not decide, more of them are seen.
+    const scale = (grid: LaneGrid): number =>
+      Math.min(grid.laneWidth / WIDE, (grid.laneHeight - GAP - HEAD * size) / TALL);
+    this.#grid = grids.reduce((best, grid) => (scale(grid) >= scale(best) ? grid : best));
   }
 
   #visibleLanes(margin: number): number[] {
@@ -147,82 +149,54 @@ export class Stage implements View {
 
   #drawLane(pen: Pen, robot: number, lane: number): void {
     const size = enlargement.value;
-    const label = Math.min(124 * size, this.#grid.laneWidth * 0.32);
-    const height = this.#grid.laneHeight - GAP;
-    const left = this.#grid.left(lane);
-    const top = this.#grid.top(lane) - this.pane.scrolled;
-    const lamp = Math.min(64 * size, height);
-    this.#drawFrame(pen, robot, left, top, height);
+    const [left, top] = [this.#grid.left(lane), this.#grid.top(lane) - this.pane.scrolled];
+    const [width, height] = [this.#grid.laneWidth - GAP, this.#grid.laneHeight - GAP];
+    const head = HEAD * size;
+    pen.fillStyle = colors.value.sky;
+    pen.fillRect(left, top, width, head);
+    this.#drawWalk(pen, robot, { left, top: top + head, width, height: height - head });
     const thread = this.swarm.thread({ robot });
-    const badge = this.#hasThreads() ? 24 * size : 0;
+    const right = left + width - 34 * size;
     if (thread !== null) {
-      drawThread(pen, thread, { left, top, height, right: left + label - 4 }, size, colors.value);
+      drawThread(pen, thread, { left, top, height, right }, size, colors.value);
     }
-    this.#drawLabel(pen, robot, left + 12, top, height, [label - 16, badge]);
-    this.#drawWalk(pen, robot, { left: left + label, top, width: this.#grid.laneWidth - label - lamp, height });
-    const value = this.swarm.value({ robot });
-    drawLamp(
-      pen,
-      value,
-      left + this.#grid.laneWidth - lamp / 2,
-      top + height / 2,
-      Math.min(17 * size, height / 3.4),
-      colors.value,
-    );
+    this.#drawLabel(pen, robot, left + 10, top, right - left - 14 - (this.#hasThreads() ? 26 * size : 0));
+    drawLamp(pen, this.swarm.value({ robot }), left + width - 18 * size, top + 18 * size, 12 * size, colors.value);
+    if (sameSource(this.swarm.selection.pointed.value, { robot })) {
+      pen.strokeStyle = colors.value.accent;
+      pen.lineWidth = 3;
+      pen.strokeRect(left + 1.5, top + 1.5, width - 3, height - 3);
+    }
   }
 
   #hasThreads(): boolean {
     return (this.swarm.definition.value?.waves?.threads ?? 1) > 1;
   }
 
-  #drawFrame(pen: Pen, robot: number, left: number, top: number, height: number): void {
-    const pointed = sameSource(this.swarm.selection.pointed.value, { robot });
-    pen.fillStyle = pointed ? colors.value.accent : colors.value.panel;
-    pen.fillRect(left, top, this.#grid.laneWidth, height);
-    if (pointed) {
-      pen.fillStyle = colors.value.panel;
-      pen.fillRect(left + 3, top + 3, this.#grid.laneWidth - 6, height - 6);
-    }
-  }
-
-  /** The name, the gate and the stimuli of a robot; its name leaves room for a `badge` at the end of its line. */
-  #drawLabel(
-    pen: Pen,
-    index: number,
-    left: number,
-    top: number,
-    height: number,
-    [width, badge]: [number, number],
-  ): void {
+  #drawLabel(pen: Pen, index: number, left: number, top: number, width: number): void {
     const robot = this.swarm.definition.value?.robots[index];
     if (robot === undefined) {
       return;
     }
     const size = enlargement.value;
-    const middle = top + height / 2;
+    // A robot of one input senses nothing but a constant by its other sides.
+    const senses = robot.senses.filter(source => !("constant" in source));
     pen.textAlign = "left";
     pen.textBaseline = "alphabetic";
     pen.fillStyle = colors.value.ink;
     pen.font = `600 ${14 * size}px ${colors.value.font}`;
-    // A low lane has the net and its gate in one line.
-    const low = height < LOW * size;
-    const above = middle - (low ? 5 : 9) * size;
-    // A robot whose net has no name is called by its gate.
-    const gate = gateName(robot.function);
-    const name = robot.named ? robot.label : gate;
-    pen.fillText(name, left, above, low && robot.named ? (width - badge) / 2 : width - badge);
-    const beside = Math.min((width - badge) / 2, pen.measureText(name).width) + 8 * size;
+    const measured = (text: string): number => pen.measureText(text).width;
+    const name = fitCall(robot.label, width, measured);
+    pen.fillText(name, left, top + 17 * size);
+    const beside = measured(name);
     pen.fillStyle = colors.value.dim;
     pen.font = `${12 * size}px ${colors.value.font}`;
-    if (robot.named && low) {
-      pen.fillText(gate, left + beside, above, width - badge - beside);
-    } else if (robot.named) {
-      pen.fillText(gate, left, middle + 5 * size, width);
+    const call = ` = ${robot.function}(${senses.map(source => this.swarm.nameOf(source)).join(", ")})`;
+    if (robot.named && beside + measured(call) <= width) {
+      pen.fillText(call, left + beside, top + 17 * size);
     }
-    // A robot of one input senses nothing but a constant by its other sides.
-    const senses = robot.senses.filter(source => !("constant" in source));
     const share = width / Math.max(2, senses.length);
-    senses.forEach((source, i) => this.#drawSense(pen, source, left + i * share, middle + (low ? 2 : 9) * size, share));
+    senses.forEach((source, i) => this.#drawSense(pen, source, left + i * share, top + 24 * size, share));
   }
 
   #drawSense(pen: Pen, source: StimulusSource, x: number, top: number, width: number): void {
@@ -230,10 +204,7 @@ export class Stage implements View {
     drawStimulus(pen, this.swarm.value(source), x, top, 12 * size, colors.value);
     pen.fillStyle = colors.value.dim;
     pen.font = `${11 * size}px ${colors.value.font}`;
-    // What is too long is cut, and a net without a name is then called by its gate alone.
-    const fit = (text: string): string => fitText(text, width - 20 * size, text => pen.measureText(text).width);
-    const label = this.swarm.nameOf(source);
-    const name = fit(label.includes("(") && fit(label) !== label ? label.slice(0, label.indexOf("(")) : label);
+    const name = fitCall(this.swarm.nameOf(source), width - 20 * size, text => pen.measureText(text).width);
     pen.fillText(name, x + 16 * size, top + 10 * size);
   }
 
@@ -243,14 +214,13 @@ export class Stage implements View {
       outline: definition === null ? null : this.swarm.playback.outline(robot),
       voxels: definition?.robots[robot]?.voxels ?? [],
       looks: definition?.looks ?? [],
-      tall: Math.max(5, this.#tallness(robot)),
-      wide: 14,
+      tall: Math.max(5, this.#tallness(robot) - 1),
+      wide: WIDE,
       columns: definition?.ground ?? [],
     };
     this.#cameras.set(robot, drawWalk(pen, area, walking, this.#cameras.get(robot), colors.value));
   }
 
-  /** The rows of a body. */
   #tallness(robot: number): number {
     return Math.sqrt(this.swarm.definition.value?.robots[robot]?.voxels.length ?? 25) + 1;
   }

@@ -11,7 +11,6 @@ import { numberFormat, numberText, type Valued } from "./numbers";
 import type { LiveSwarm } from "./swarm";
 import { registerAt, threadColor } from "./waves";
 
-/** The first row that is for these digits; null if there is none. */
 export function rowFor(rows: ListingRow[], digits: string): number | null {
   const fits = (bits: string): boolean =>
     bits.length === digits.length && [...bits].every((bit, i) => bit === "-" || bit === digits[i]);
@@ -21,7 +20,6 @@ export function rowFor(rows: ListingRow[], digits: string): number | null {
 
 export class StateView implements View {
   readonly host = element("div", { class: "table state", tabindex: 0, role: "group", "aria-label": "State" });
-  /** Shows and hides it; hidden where there is nothing to show. */
   readonly toggle = button("State", () => this.#switch(), { "data-do": "state" });
   #open = recall<boolean>("state") ?? false;
   #updates: (() => void)[] = [];
@@ -90,7 +88,6 @@ export class StateView implements View {
     return element("table", { class: "rows registers", "aria-label": "Registers" }, element("tbody", {}, ...rows));
   }
 
-  /** The registers of each thread after its last step. */
   #waveRegisters({ outputs }: ShownSwarm, waves: ShownWaves): HTMLElement {
     const threads = Array.from({ length: waves.threads }, (_, thread) => thread);
     const rows = waves.registers.map(register => {

@@ -21,7 +21,6 @@ export const REAL_TIME = 4;
 
 export class LiveSwarm {
   readonly definition = new Observable<ShownSwarm | null>(null);
-  /** The newest frame. */
   readonly frame = new Observable<Frame | null>(null);
   readonly log = new RunLog();
   readonly playback = new Playback();
@@ -34,7 +33,6 @@ export class LiveSwarm {
   /** Cycles a second; null is as fast as possible. */
   readonly speed = new Observable<number | null>(REAL_TIME);
   readonly running = new Observable(false);
-  /** Why the swarm cannot go on. */
   readonly stopped = new Observable<string | null>(null);
   /** The numbers of robots, inputs and outputs of each net by its name. */
   nets = new Map<string, StimulusSource>();
@@ -125,7 +123,6 @@ export class LiveSwarm {
     return this.running.value || this.#rests;
   }
 
-  /** A swarm that nobody sees rests. */
   watch(watched: boolean): void {
     const wanted = this.wantsToRun;
     this.#watched = watched;
@@ -171,7 +168,6 @@ export class LiveSwarm {
     return this.#drive(false, "seek", { cycle });
   }
 
-  /** Asks for the poses of these robots only. */
   view(robots: number[]): void {
     if (this.#shown?.join() !== robots.join()) {
       this.#shown = robots;
@@ -200,7 +196,6 @@ export class LiveSwarm {
     return waves !== null && waves.threads > 1 && "robot" in source ? threadAt(waves, source.robot, cycle) : null;
   }
 
-  /** What a source is called. */
   nameOf(source: StimulusSource): string {
     const definition = this.definition.value;
     if ("constant" in source) {
@@ -229,7 +224,6 @@ export class LiveSwarm {
     this.frame.set(frame);
   }
 
-  /** Whether the order was carried out. */
   #drive<V extends "run" | "pause" | "step" | "reset" | "seek">(
     running: boolean,
     verb: V,
@@ -280,7 +274,6 @@ export class LiveSwarm {
   }
 }
 
-/** The source of each net that has a name. */
 export function netsOf(swarm: ShownSwarm): Map<string, StimulusSource> {
   const nets = new Map<string, StimulusSource>();
   swarm.robots.forEach((robot, index) => nets.set(robot.net, { robot: index }));

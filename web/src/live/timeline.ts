@@ -7,11 +7,9 @@ const PRESENT = 0.86;
 const ZOOMS = [3, 5, 8, 12, 18, 28, 44];
 
 export class Timeline {
-  /** Pixels in a cycle. */
   readonly zoom = new Observable(18);
   /** The cycle at the left edge while it does not follow the present. */
   readonly held = new Observable<number | null>(null);
-  /** The width of the names, which all diagrams share. */
   readonly label = 96;
 
   zoomBy(steps: number): void {

@@ -16,25 +16,33 @@ export const MOST_BITS = 5;
 /** All rows; null if the circuit has a state, no inputs, or too many. */
 export function truthRows(swarm: ShownSwarm): TruthRow[] | null {
   const width = totalWidth(swarm.inputs);
-  const order = levelized(swarm);
-  // The registers of a wave machine need no loop of robots.
-  if (width === 0 || width > MOST_BITS || order === null || (swarm.waves?.clock ?? null) !== null) {
-    return null;
-  }
-  const tables = swarm.robots.map(robot => truthTable(robot.function));
-  if (tables.includes(null)) {
+  const outputsOf = width === 0 || width > MOST_BITS ? null : logicOf(swarm);
+  if (outputsOf === null) {
     return null;
   }
   return Array.from({ length: 1 << width }, (_, row) => {
     const inputs = row.toString(2).padStart(width, "0");
+    return { inputs, outputs: outputsOf(inputs) };
+  });
+}
+
+/** What the bits of the outputs are, by those of the inputs, once all robots have settled; null for one with a state. */
+export function logicOf(swarm: ShownSwarm): ((inputs: string) => string) | null {
+  const order = levelized(swarm);
+  const tables = swarm.robots.map(robot => truthTable(robot.function));
+  // The registers of a wave machine need no loop of robots.
+  if (order === null || (swarm.waves?.clock ?? null) !== null || tables.includes(null)) {
+    return null;
+  }
+  return inputs => {
     const bits = new Uint8Array(swarm.robots.length);
     const value = (source: StimulusSource): number => valueOf(source, inputs, bits);
     for (const robot of order) {
       const senses = swarm.robots[robot]?.senses ?? [];
       bits[robot] = tables[robot]?.[senses.reduce((pattern, source) => 2 * pattern + value(source), 0)] ?? 0;
     }
-    return { inputs, outputs: swarm.shown.map(value).join("") };
-  });
+    return swarm.shown.map(value).join("");
+  };
 }
 
 function valueOf(source: StimulusSource, inputs: string, robots: Uint8Array): number {

@@ -9,7 +9,6 @@ import { truthRows, type TruthRow } from "./truth";
 
 export class TruthView {
   readonly host = element("div", { class: "table", tabindex: 0, role: "group", "aria-label": "Truth table" });
-  /** Shows and hides it; hidden where there is no table. */
   readonly toggle = button("Truth table", () => this.#switch(), {
     "data-do": "truth",
     title: "What the outputs are for all inputs",

@@ -18,22 +18,17 @@ export interface Margins {
 const LARGEST = 4;
 
 export class Viewport {
-  /** The size of the pane in pixels. */
   width = 0;
   height = 0;
-  /** Pixels in a unit of the drawing. */
   scale = 1;
   #x = 0;
   #y = 0;
-  /** The scale at which the whole is seen. */
   #whole = 1;
 
-  /** The part of the drawing that fills the pane. */
   get box(): Box {
     return { x: this.#x, y: this.#y, width: this.width / this.scale, height: this.height / this.scale };
   }
 
-  /** Whether no more than the whole is seen. */
   get isWhole(): boolean {
     return this.scale <= this.#whole;
   }
@@ -64,7 +59,6 @@ export class Viewport {
     this.scale = scale;
   }
 
-  /** Moves the drawing by some pixels. */
   move(across: number, down: number): void {
     this.#x -= across / this.scale;
     this.#y -= down / this.scale;

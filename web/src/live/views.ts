@@ -1,6 +1,7 @@
 // The views of a swarm: its inputs and outputs, the controls, the stage and the diagrams.
 
-import { element, fill, iconButton } from "../element";
+import { button, element, fill, iconButton } from "../element";
+import { recall, remember } from "../memory";
 import type { ShownSwarm } from "../protocol";
 import { colors } from "../colors";
 import { Animation } from "./animation";
@@ -27,7 +28,6 @@ export class SwarmViews {
   readonly #animation: Animation;
   readonly #legend = element("div", { class: "legends" });
 
-  /** The views below a `head`. */
   constructor(
     private readonly swarm: LiveSwarm,
     head: HTMLElement,
@@ -41,18 +41,36 @@ export class SwarmViews {
     const filling = new Filling(this.host);
     this.stage = new Stage(swarm, wake);
     const robots = filling.button("stage", this.stage.pane.host, "The robots");
-    this.controls = new Controls(swarm, [truth.toggle, state.toggle], [robots, fullScreen(this.host)]);
+    this.controls = new Controls(swarm, robots);
     const inspector = new Inspector(swarm);
     const schematic = new Schematic(swarm);
-    schematic.tools.append(filling.button("schematic", schematic.host, "The gates"));
     const [waveform, spacetime] = [new Waveform(swarm, timeline, wake), new Spacetime(swarm, timeline, wake)];
     const clock = new ClockPanel(swarm);
+    const zoom = [
+      iconButton("more", "Show fewer cycles", () => timeline.zoomBy(1)),
+      iconButton("less", "Show more cycles", () => timeline.zoomBy(-1)),
+    ];
+    const diagrams = [
+      new Framed("Circuit", schematic.host, [
+        schematic.crumbs,
+        ...schematic.tools,
+        filling.button("schematic", schematic.host, "The gates"),
+      ]),
+      new Framed("Waveforms", waveform.pane.host, [
+        waveform.toggle,
+        ...zoom,
+        filling.button("waveform", waveform.pane.host, "The waveforms"),
+      ]),
+      new Framed("Paths", spacetime.pane.host, [filling.button("spacetime", spacetime.pane.host, "The paths")], false),
+    ];
+    const toggles = [...diagrams.map(({ toggle }) => toggle), truth.toggle, state.toggle];
     this.host.append(
       head,
       element("div", { class: "ports" }, inputs.host, clock.host, outputs.host),
       this.controls.host,
       element("div", { class: "scene" }, this.stage.pane.host, inspector.host, truth.host, state.host),
-      element("div", { class: "diagrams" }, schematic.host, diagrams([waveform, spacetime], timeline, filling)),
+      element("div", { class: "inspector" }, inspector.line, ...toggles),
+      element("div", { class: "diagrams" }, ...diagrams.map(({ host }) => host)),
       this.#legend,
     );
     for (const view of [inputs, outputs, state, this.stage, inspector, schematic, waveform, spacetime]) {
@@ -78,7 +96,6 @@ export class SwarmViews {
   }
 }
 
-/** How large a swarm is, and how long its changes take. */
 export function summaryOf({ robots, hold, waves }: ShownSwarm): string {
   const count = `${robots.length} ${robots.length === 1 ? "robot" : "robots"}`;
   if (waves !== null) {
@@ -89,7 +106,6 @@ export function summaryOf({ robots, hold, waves }: ShownSwarm): string {
   return `${count}, settles within ${hold} ${hold === 1 ? "cycle" : "cycles"}`;
 }
 
-/** What the materials of the paper do, and those of a third stimulus. */
 const MATERIALS: Record<string, string> = {
   bone: "bone: rigid",
   flesh: "flesh: soft",
@@ -103,44 +119,28 @@ const MATERIALS: Record<string, string> = {
   s3_grow: "grows while stimulus 3 is present",
 };
 
-function diagrams([waveform, spacetime]: [Waveform, Spacetime], timeline: Timeline, filling: Filling): HTMLElement {
-  return element(
-    "div",
-    { class: "times" },
-    element(
-      "div",
-      { class: "framed" },
-      element(
-        "div",
-        { class: "zoom" },
-        waveform.toggle,
-        iconButton("more", "Show fewer cycles", () => timeline.zoomBy(1)),
-        iconButton("less", "Show more cycles", () => timeline.zoomBy(-1)),
-        filling.button("waveform", waveform.pane.host, "The waveforms"),
-      ),
-      waveform.pane.host,
-    ),
-    element(
-      "div",
-      { class: "framed" },
-      element("div", { class: "zoom" }, filling.button("spacetime", spacetime.pane.host, "The paths")),
-      spacetime.pane.host,
-    ),
-  );
-}
+/** A diagram with its name and its tools above it, and a button that shows and hides it. */
+class Framed {
+  readonly host: HTMLElement;
+  readonly toggle: HTMLButtonElement;
 
-/** Shows the robots with their inputs on the whole screen, and back. A phone that cannot do this has no button. */
-function fullScreen(whole: HTMLElement): HTMLElement {
-  const made = iconButton(
-    "full",
-    "Full screen",
-    () => void (document.fullscreenElement === null ? whole.requestFullscreen() : document.exitFullscreen()),
-    { "data-do": "full", hidden: !document.fullscreenEnabled },
-  );
-  document.addEventListener("fullscreenchange", () => {
-    const full = document.fullscreenElement === whole;
-    made.setAttribute("aria-pressed", String(full));
-    made.title = full ? "Leave full screen (Esc)" : "Full screen";
-  });
-  return made;
+  constructor(title: string, pane: HTMLElement, tools: HTMLElement[], isShown = true) {
+    const name = `diagram-${title.toLowerCase()}`;
+    const show = (shown: boolean): void => {
+      this.host.hidden = !shown;
+      this.toggle.setAttribute("aria-pressed", String(shown));
+    };
+    const change = (): void => {
+      show(this.host.hidden);
+      remember(name, !this.host.hidden);
+    };
+    this.host = element(
+      "section",
+      { class: "framed" },
+      element("header", {}, element("h3", {}, title), ...tools),
+      pane,
+    );
+    this.toggle = button(title, change, { "data-do": name });
+    show(recall<boolean>(name) ?? isShown);
+  }
 }

@@ -7,7 +7,6 @@ import { drawGround, drawRobot } from "./drawing";
 import type { Pen } from "./pane";
 import type { Outline } from "./playback";
 
-/** A part of a canvas. */
 export interface Area {
   left: number;
   top: number;
@@ -15,9 +14,7 @@ export interface Area {
   height: number;
 }
 
-/** What is seen of a robot while it walks. */
 export interface Walking {
-  /** None if its poses are not known. */
   outline: Outline | null;
   voxels: SwarmRobot["voxels"];
   looks: VoxelLook[];

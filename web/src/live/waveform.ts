@@ -16,7 +16,6 @@ import type { LiveSwarm } from "./swarm";
 import type { Timeline } from "./timeline";
 
 export class Waveform extends Diagram {
-  /** Shows and hides the robots. */
   readonly toggle = button("Robots", () => this.#switch(), {
     "data-do": "wave-robots",
     title: "Show the bit of each robot, too",
@@ -113,7 +112,6 @@ export class Waveform extends Diagram {
     drawBus(pen, band, cycles, value, number => numberText(number, valued));
   }
 
-  /** The cycles of the log in view. */
   #cycles(): [number, number, number] {
     const [start, end] = this.range();
     const { log, playback, running } = this.swarm;

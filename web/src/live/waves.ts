@@ -17,7 +17,6 @@ export function threadAt(waves: ShownWaves, robot: number, cycle: number): numbe
   return (((beats - phase) % waves.threads) + waves.threads) % waves.threads;
 }
 
-/** The number of a thread's color, from 1. */
 export function threadColor(thread: number): number {
   return (thread % THREAD_COLORS) + 1;
 }

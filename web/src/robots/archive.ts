@@ -38,7 +38,6 @@ export class Archive {
     return { across, layers: all.filter(axis => !across.includes(axis)) };
   }
 
-  /** The places along these axes in all combinations. */
   places(axes: number[]): number[][] {
     return axes.reduce<number[][]>(
       (places, axis) =>
@@ -48,7 +47,6 @@ export class Archive {
   }
 }
 
-/** What colors show: the last part of the fitness. */
 export function strength(niche: NicheEntry): number {
   return niche.fitness.at(-1) ?? 0;
 }

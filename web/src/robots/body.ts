@@ -6,7 +6,6 @@ export type Body = readonly string[];
 
 export const LARGEST = 10;
 export const EMPTY = "0";
-/** A body with fewer muscles cannot walk. */
 const LEAST_MUSCLES = 3;
 
 export function emptyBody(width: number, height: number): Body {
@@ -66,7 +65,6 @@ export function countVoxels(body: Body): number {
   return body.join("").replaceAll(EMPTY, "").length;
 }
 
-/** Whether all voxels hang together by their sides. */
 export function isConnected(body: Body): boolean {
   const start = placesOf(body).find(([x, y]) => voxelAt(body, x, y) !== EMPTY);
   if (start === undefined) {
@@ -139,7 +137,6 @@ function placesOf(body: Body): [number, number][] {
   return Array.from({ length: width * height }, (_, i) => [i % width, Math.floor(i / width)]);
 }
 
-/** The empty places beside voxels. */
 function border(body: Body): [number, number][] {
   const free = (x: number, y: number): boolean => voxelAt(body, x, y) === EMPTY;
   return placesOf(body).filter(([x, y]) => free(x, y) && neighbors(x, y).some(([a, b]) => !free(a, b)));

@@ -128,7 +128,6 @@ export class Cards {
   }
 }
 
-/** Plays the gaits one after the other. */
 function play(view: GaitView, gaits: Gait[], letters: string, caption: HTMLElement): (seconds: number) => void {
   let time = 0;
   let shown = -1;

@@ -24,9 +24,9 @@ import { History } from "./history";
 import { looksByCode } from "./portrait";
 import type { Probing } from "./probing";
 
-/** After the last change, in milliseconds. */
 const PAUSE = 150;
 const CYCLES = 8;
+const FIRST = "nand_5x5";
 
 /** A body and how it walks; null while that is not known. */
 export interface Design {
@@ -34,7 +34,6 @@ export interface Design {
   probe: ProbeReport | Fault | null;
 }
 
-/** Why a body cannot walk. */
 export interface Fault {
   fault: string;
 }
@@ -74,7 +73,12 @@ export class Designer {
     return this.#history.present;
   }
 
-  setMaterials({ palette, looks }: RobotCards): void {
+  /** Takes what one can paint with. A first visit begins with a robot that walks. */
+  setMaterials({ palette, looks, robots }: RobotCards): void {
+    const first = robots.find(robot => robot.name === FIRST && robot.painted);
+    if (this.#materials.length === 0 && recall("design") === null && first !== undefined) {
+      this.#history.push(first.body, false);
+    }
     const empty: PaletteEntry = { code: EMPTY, name: "empty", about: "no voxel", look: -1 };
     this.#materials = [empty, ...palette.filter(({ code }) => code !== EMPTY)];
     this.#looks = looks;
@@ -85,7 +89,6 @@ export class Designer {
     }
   }
 
-  /** Puts a body into the designer. */
   take(body: Body): void {
     this.#change(body);
   }

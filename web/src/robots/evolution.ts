@@ -1,6 +1,7 @@
 // A search for gates that starts from the body in the designer.
 
 import { CANCELLED, type Connection } from "../connection";
+import { downloadBytes } from "../download";
 import { button, element } from "../element";
 import { Observable } from "../observable";
 import type { NicheEntry } from "../protocol";
@@ -59,6 +60,7 @@ export class Evolution {
         this.#start,
         element("label", {}, "for ", this.#generations, " generations"),
         this.#progress,
+        button("Save the archive", () => this.#save(), { "data-do": "save-archive", title: "All of it, as JSON" }),
       ),
       this.#status,
       this.#map.host,
@@ -69,6 +71,11 @@ export class Evolution {
         this.#show(true);
       }
     });
+  }
+
+  #save(): void {
+    const niches = [...this.#archive.niches.values()];
+    downloadBytes(JSON.stringify({ niches }, null, 2), "application/json", "archive.json");
   }
 
   async #toggle(): Promise<void> {

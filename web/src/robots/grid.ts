@@ -7,7 +7,6 @@ import { EMPTY, sizeOf, voxelAt, type Body } from "./body";
 export interface GridEvents {
   /** A voxel was painted; `merge` if it belongs to the stroke before. */
   paint: (x: number, y: number, code: string | null, merge: boolean) => void;
-  /** The code that is painted with. */
   brush: () => string;
 }
 
@@ -127,7 +126,6 @@ export class Grid {
   }
 }
 
-/** Black or white, whichever can be read on a color. */
 export function inkOn(color: string): string {
   const [r, g, b] = [1, 3, 5].map(i => parseInt(color.slice(i, i + 2), 16)) as [number, number, number];
   return 0.3 * r + 0.6 * g + 0.1 * b > 140 ? "#000" : "#fff";

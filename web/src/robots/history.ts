@@ -1,6 +1,5 @@
 // What can be undone and done again.
 
-/** Older steps are forgotten. */
 const DEPTH = 200;
 
 export class History<T> {

@@ -4,13 +4,13 @@ import { CANCELLED, type Connection } from "../connection";
 import { button, element, fill } from "../element";
 import type { Program } from "../program";
 import { RequestError } from "../request";
-import type { Body } from "./body";
+import { percent } from "./cards";
+import type { Design } from "./designer";
 
 export interface KeepDoors {
   /** Puts a declaration at the start or at the end of the program. */
   declare: (line: string) => void;
   append: (line: string) => void;
-  /** Shows the swarm. */
   show: () => void;
 }
 
@@ -27,7 +27,7 @@ export class Keeping {
 
   constructor(
     private readonly connection: Connection,
-    private readonly body: () => Body,
+    private readonly design: () => Design,
     private readonly program: Program,
     private readonly doors: KeepDoors,
     private readonly kept: () => void,
@@ -75,15 +75,18 @@ export class Keeping {
     const fields = {
       path: this.program.path.value || null,
       name: this.#name.value.trim(),
-      body: [...this.body()],
+      body: [...this.design().body],
       replace,
     };
+    const { probe } = this.design();
+    const errors = probe !== null && "character" in probe ? (probe.character?.error_rate ?? 0) : 0;
+    const warning = errors > 0 ? `It errs in ${percent(errors)} of its switches, so a circuit of it may, too. ` : "";
     try {
       const { path, use } = await this.connection.request("keep", fields, { signal: work.signal });
       if (!this.program.text.includes(use)) {
         this.doors.declare(use);
       }
-      fill(this.#status, `wrote ${path}; the program has a library with it. `, this.#offer(use));
+      fill(this.#status, `wrote ${path}; the program has a library with it. ${warning}`, this.#offer(use));
       this.kept();
     } catch (error) {
       this.#fail(error);

@@ -38,7 +38,7 @@ export class RobotsPanel {
     const result = new ProbeView(this.#ticker);
     const keeping = new Keeping(
       connection,
-      () => this.designer.body,
+      () => this.designer.design.value,
       program,
       doors,
       () => void this.#load(),

@@ -5,7 +5,6 @@ import type { PaletteEntry, RobotCard, VoxelLook } from "../protocol";
 import { colors } from "../colors";
 import { EMPTY } from "./body";
 
-/** The look of each code of a palette. */
 export function looksByCode(looks: VoxelLook[], palette: PaletteEntry[]): Map<string, VoxelLook> {
   return new Map(
     palette.flatMap(({ code, look }): [string, VoxelLook][] => {
@@ -15,7 +14,6 @@ export function looksByCode(looks: VoxelLook[], palette: PaletteEntry[]): Map<st
   );
 }
 
-/** Draws a robot in the middle of a canvas, standing on its lower edge. */
 export function drawBody(canvas: HTMLCanvasElement, robot: RobotCard, looks: VoxelLook[]): void {
   const ratio = devicePixelRatio || 1;
   canvas.width = Math.round(canvas.clientWidth * ratio);

@@ -10,7 +10,6 @@ export class Ticker {
   readonly #loop = new FrameLoop(seconds => this.#pass(seconds));
   #on = false;
 
-  /** Animations stop while their tab is not shown. */
   turn(on: boolean): void {
     this.#on = on;
     this.#wake();

@@ -7,7 +7,6 @@ import { outlineAt, type Gait } from "./gait";
 /** The part of a body that never changes while it walks. */
 export type Looking = Pick<Walking, "voxels" | "looks" | "tall" | "wide">;
 
-/** A canvas with one robot on the ground. */
 export class GaitView {
   #camera: number | undefined;
 

@@ -3,7 +3,6 @@
 
 import { decodeBase64Url, encodeBase64Url, pack, unpack } from "./packed";
 
-/** What a link contains. */
 export interface SharedProgram {
   /** The name of the file, without folders. */
   file: string;
@@ -15,7 +14,6 @@ export interface SharedProgram {
   tab: string | null;
 }
 
-/** Why a link cannot be made or opened, for the user. */
 export class LinkError extends Error {}
 
 const MARK = "share=";
@@ -29,7 +27,6 @@ const MOST_NAME = 200;
 const MOST_PORTS = 1000;
 const LONGEST_FILE = 80;
 
-/** The part of an address from after `#`. */
 export async function encodeShare(shared: SharedProgram): Promise<string> {
   if (shared.text.length > MOST_TEXT) {
     throw new LinkError(`the program is too long for a link, which has room for ${MOST_TEXT} letters; send the file`);

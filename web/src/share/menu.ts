@@ -3,7 +3,6 @@
 import { button, element, fill } from "../element";
 import { LinkError, encodeShare, type SharedProgram } from "./link";
 
-/** Where links can lead. */
 export interface LinkPlaces {
   /** The address of this page, if others can open it. */
   here: string | null;
@@ -19,8 +18,8 @@ export class LinkMenu {
 
   constructor(private readonly share: () => SharedProgram) {}
 
-  /** Offers the links that there are. */
   show({ here, isPublic, publicPage }: LinkPlaces): void {
+    const open = publicPage ?? (isPublic ? here : null);
     const isElsewhere = publicPage !== null && publicPage !== here;
     fill(this.#status);
     fill(
@@ -42,18 +41,20 @@ export class LinkMenu {
         "any-link",
         "To be pasted into Open a program, or behind the address of another nbc play",
       ),
+      open !== null && this.#button("Copy as Markdown", open, "markdown", "The program with a link to it", true),
       this.#status,
     );
   }
 
-  #button(label: string, address: string, what: string, title: string): HTMLElement {
-    return button(label, () => void this.#copy(address), { "data-take": what, title });
+  #button(label: string, address: string, what: string, title: string, isMarkdown = false): HTMLElement {
+    return button(label, () => void this.#copy(address, isMarkdown), { "data-take": what, title });
   }
 
-  async #copy(address: string): Promise<void> {
+  async #copy(address: string, isMarkdown: boolean): Promise<void> {
     try {
-      const link = `${address}#${await encodeShare(this.share())}`;
-      await this.#put(link);
+      const shared = this.share();
+      const link = `${address}#${await encodeShare(shared)}`;
+      await this.#put(isMarkdown ? `\`\`\`nb\n${shared.text}\`\`\`\n\n[${shared.file}](${link})\n` : link);
     } catch (error) {
       if (!(error instanceof LinkError)) {
         throw error;
@@ -66,7 +67,7 @@ export class LinkMenu {
   async #put(link: string): Promise<void> {
     try {
       await navigator.clipboard.writeText(link);
-      fill(this.#status, `copied, ${link.length} letters; the program is in the link itself`);
+      fill(this.#status, `copied, ${link.length} letters; the program is in it`);
     } catch {
       const field = element("input", { type: "text", value: link, readonly: true, "aria-label": "The link" });
       fill(this.#status, "Copy it from here: ", field);

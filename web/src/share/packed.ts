@@ -19,7 +19,6 @@ export function encodeBase64Url(bytes: Uint8Array): string {
   return btoa(raw).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 
-/** The bytes of such a text; null if it is none. */
 export function decodeBase64Url(text: string): Uint8Array | null {
   if (!/^[\w-]+$/.test(text) || text.length % 4 === 1) {
     return null;

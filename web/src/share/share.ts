@@ -6,7 +6,6 @@ import type { Program } from "../program";
 import type { ShownSwarm } from "../protocol";
 import type { SharedProgram } from "./link";
 
-/** What a link to the present program contains. */
 export function shareOf(program: Program, swarm: LiveSwarm, tab: string): SharedProgram {
   const definition = program.shown === program.path.value ? swarm.definition.value : null;
   const inputs = (definition?.inputs ?? []).map((port): [string, string] => {

@@ -6,9 +6,7 @@ import { restoreTheme } from "../theme";
 import { TabHost } from "./host";
 import { decodeBase64 } from "../share/packed";
 
-/** What an exporter puts into the page. */
 interface Sources {
-  /** The file that is shown first. */
   first: string;
   circuit: string;
   swarm: string | null;

@@ -10,7 +10,6 @@ export class Aside {
   readonly #open = new Map<number, string[]>();
 
   constructor(
-    /** Starts a worker with all files. */
     private readonly start: () => Worker,
     private readonly said: (message: FromWorker, from: Aside) => void,
   ) {}
@@ -25,7 +24,6 @@ export class Aside {
     texts.forEach(text => this.post({ say: "live", text }));
   }
 
-  /** Starts the program unless it runs. */
   begin(): Worker {
     if (this.#worker === null) {
       const worker = this.start();
@@ -39,7 +37,6 @@ export class Aside {
     this.begin().postMessage(message);
   }
 
-  /** Adds a file, or replaces it; without a text, deletes it. */
   insert(path: string, text: string | null): void {
     this.#worker?.postMessage({ say: "insert", path, text } satisfies ToWorker);
   }
@@ -55,7 +52,6 @@ export class Aside {
     return true;
   }
 
-  /** Stops all requests. */
   close(): void {
     this.#end();
     [...this.#open.keys()].forEach(id => this.#refuse(id));

@@ -8,7 +8,6 @@ const MOST = 7;
 
 export class Crew {
   readonly #workers: Worker[] = [];
-  /** Those that can be given parts. */
   #ready: Worker[] = [];
 
   /**
@@ -45,7 +44,6 @@ export class Crew {
     }
   }
 
-  /** Gives a part to one of them. */
   give(number: number, bytes: ArrayBuffer): void {
     const worker = this.#ready[number % this.#ready.length];
     if (worker !== undefined) {

@@ -54,12 +54,10 @@ export class Engine {
     this.#exports.begin(...this.#put(first), now);
   }
 
-  /** Sets how many others do parts of simulations. */
   crew(size: number): void {
     this.#exports.crew(size);
   }
 
-  /** Takes what became of a part. */
   receivePart(number: number, bytes: ArrayBuffer): void {
     this.#exports.receive_part(number, ...this.#putBytes(new Uint8Array(bytes)));
   }
@@ -79,22 +77,18 @@ export class Engine {
     }
   }
 
-  /** Sets the page that live exports are made of. */
   template(text: string): void {
     this.#exports.template(...this.#put(text));
   }
 
-  /** Takes a request of the page. */
   receive(text: string, now: number): void {
     this.#exports.receive(...this.#put(text), now);
   }
 
-  /** Begins a language service for a new client. */
   greet(): void {
     this.#exports.greet();
   }
 
-  /** Takes a message of the client of the language service. */
   receiveLanguage(text: string, now: number): void {
     this.#exports.receive_language(...this.#put(text), now);
   }

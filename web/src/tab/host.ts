@@ -3,41 +3,36 @@
 import type { BrowserFolder, Dial, LineEvents, Ways } from "../line";
 import { Observable } from "../observable";
 import type { Aside } from "./aside";
-import type { FromWorker, Source, Start, ToWorker } from "./messages";
+import type { FromWorker, LiveParts, Source, Start, ToWorker } from "./messages";
+import { MadeFiles } from "./made";
 import { Programs } from "./programs";
+import { Texts } from "./texts";
 
 export interface TabOptions extends Omit<Start, "program"> {
-  /** Starts a worker. */
   worker: () => Worker;
   program: () => Source;
-  /** The address of the page that live exports are made of, if they can be made. */
-  template?: string;
+  /** The addresses of what live exports are made of, if they can be made. */
+  template?: LiveParts;
 }
 
-/** The most files that are kept for the page to fetch, which it does at once. */
-const MOST_MADE = 8;
-const KEEPS_NOTHING = "This browser keeps no files: save what you need with Take away.";
+const KEEPS_NOTHING = "This browser keeps no files: save what you need from Share.";
 
 export class TabHost implements Ways {
   readonly live: Dial = events => this.#dial("live", events);
   readonly language: Dial = events => this.#dial("language", events);
   readonly status = new Observable("Loading the simulator …");
   readonly folder: BrowserFolder = {
-    files: () => [...this.#files].sort(([a], [b]) => (a < b ? -1 : 1)),
+    files: () => this.#texts.all,
     insert: (path, text) => this.#insert(path, text),
     remove: path => this.#insert(path, null),
   };
   readonly isPublic = true;
-  /** The addresses of what the program has made. */
-  readonly #made = new Map<string, string>();
-  /** The texts of the files by their paths. */
-  readonly #files = new Map<string, string>();
+  readonly #made = new MadeFiles();
+  readonly #texts = new Texts();
   readonly #programs = new Programs(
     () => this.#started({ module: this.#module! }, "", false),
     (message, from) => this.#receive(from, message),
   );
-  /** The paths of files that the browser could not keep. */
-  readonly #unkept = new Set<string>();
   #module: WebAssembly.Module | null = null;
   readonly #lines: { live: LineEvents | null; language: LineEvents | null } = { live: null, language: null };
   #worker: Worker | null = null;
@@ -45,13 +40,11 @@ export class TabHost implements Ways {
   #isReady = false;
 
   constructor(private readonly options: TabOptions) {
-    options.files.forEach(([path, text]) => this.#files.set(path, text));
+    options.files.forEach(file => this.#texts.note(...file));
   }
 
-  /** The address of a file that the program has made. */
-  readonly file = (address: string): string => this.#made.get(address) ?? address;
+  readonly file = (address: string): string => this.#made.address(address);
 
-  /** Loads what live exports are made of. */
   prepare(): Promise<void> {
     const { template } = this.options;
     if (template === undefined || !this.#isReady) {
@@ -59,7 +52,7 @@ export class TabHost implements Ways {
     }
     return new Promise(resolve => {
       this.#prepared = resolve;
-      this.#programs.work.post({ say: "template", address: template });
+      this.#programs.work.post({ say: "template", ...template });
     });
   }
 
@@ -95,18 +88,8 @@ export class TabHost implements Ways {
     this.#note(path, text);
   }
 
-  #showUnkept(): void {
-    const paths = [...this.#unkept].join(", ");
-    this.status.set(paths === "" ? "" : `This browser could not keep ${paths}: save it with Take away.`);
-  }
-
-  /** Notes a file that the program of the page has. */
   #note(path: string, text: string | null): void {
-    if (text === null) {
-      this.#files.delete(path);
-    } else {
-      this.#files.set(path, text);
-    }
+    this.#texts.note(path, text);
     this.#programs.insert(path, text);
   }
 
@@ -123,7 +106,7 @@ export class TabHost implements Ways {
       event.preventDefault();
       this.#fail(event.message ?? "the worker cannot be started");
     };
-    post(worker, { say: "begin", program, first, files: [...this.#files], keeps });
+    post(worker, { say: "begin", program, first, files: this.#texts.all, keeps });
     return worker;
   }
 
@@ -139,7 +122,7 @@ export class TabHost implements Ways {
         }
         this.#isReady = true;
         this.#module = message.module;
-        message.files.forEach(([path, text]) => this.#files.set(path, text));
+        message.files.forEach(file => this.#texts.note(...file));
         this.status.set(message.keeps || !this.options.keeps ? "" : KEEPS_NOTHING);
         this.#programs.prepare();
         this.#lines.live?.opened();
@@ -157,16 +140,9 @@ export class TabHost implements Ways {
       case "template":
         this.#prepared();
         break;
-      case "file": {
-        const { address, type, bytes } = message;
-        this.#made.set(address, URL.createObjectURL(new Blob([bytes], { type })));
-        const [oldest] = this.#made;
-        if (oldest !== undefined && this.#made.size > MOST_MADE) {
-          this.#made.delete(oldest[0]);
-          URL.revokeObjectURL(oldest[1]);
-        }
+      case "file":
+        this.#made.add(message.address, message.type, message.bytes);
         break;
-      }
       case "wrote":
         if (from === this.#worker) {
           this.#note(message.path, message.text);
@@ -175,8 +151,7 @@ export class TabHost implements Ways {
         }
         break;
       case "kept":
-        this.#unkept[message.isKept ? "delete" : "add"](message.path);
-        this.#showUnkept();
+        this.status.set(this.#texts.noteKept(message.path, message.isKept));
         break;
       case "failed":
         this.#fail(message.message);
@@ -184,7 +159,6 @@ export class TabHost implements Ways {
     }
   }
 
-  /** A program has failed: all are started again. */
   #fail(message: string): void {
     if (this.#worker === null) {
       return;

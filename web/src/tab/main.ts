@@ -4,14 +4,15 @@ import { App } from "../app";
 import { restoreTheme } from "../theme";
 import { TabHost } from "./host";
 
-/** The names of the program and of the worker, with hashes, and the program's size; put in by the build. */
-declare const PROGRAM: { name: string; bytes: number; worker: string };
+/** The names of what the page loads, with hashes, and the program's size; put in by the build. */
+declare const PROGRAM: { name: string; bytes: number; worker: string; template: string };
 
 restoreTheme();
+const address = (name: string): string => new URL(name, document.baseURI).href;
 const host = new TabHost({
-  worker: () => new Worker(new URL(PROGRAM.worker, document.baseURI)),
-  program: () => ({ address: new URL(PROGRAM.name, document.baseURI).href, bytes: PROGRAM.bytes }),
-  template: new URL("alone.html", document.baseURI).href,
+  worker: () => new Worker(address(PROGRAM.worker)),
+  program: () => ({ address: address(PROGRAM.name), bytes: PROGRAM.bytes }),
+  template: { page: address(PROGRAM.template), program: address(PROGRAM.name) },
   first: "",
   files: [],
   keeps: true,

@@ -5,15 +5,18 @@ import type { KeptFiles } from "./files";
 /** Where the program is: an address, or its bytes, compressed by gzip; or what another worker has compiled. */
 export type Source = { address: string; bytes: number } | { packed: ArrayBuffer } | { module: WebAssembly.Module };
 
-/** What the program begins with. */
 export interface Start {
   program: Source;
   /** The file that the page opens first; empty for none in particular. */
   first: string;
-  /** Files that the page comes with. */
   files: KeptFiles;
-  /** Whether the browser keeps files. */
   keeps: boolean;
+}
+
+/** The addresses of the page that live exports are made of, and of the program that is put into it. */
+export interface LiveParts {
+  page: string;
+  program: string;
 }
 
 export type ToWorker =
@@ -24,9 +27,7 @@ export type ToWorker =
   | { say: "gather"; after: number }
   /** A file that was written elsewhere, or deleted if it has no text. */
   | { say: "insert"; path: string; text: string | null }
-  /** The address of the page that live exports are made of. */
-  | { say: "template"; address: string }
-  /** The last frame was drawn. */
+  | ({ say: "template" } & LiveParts)
   | { say: "drawn" }
   /** To a worker that only does parts of simulations for another. */
   | { say: "assist"; module: WebAssembly.Module }
@@ -40,7 +41,6 @@ export type FromWorker =
   | { say: "template" }
   /** A file was saved here, or by another tab, which may have deleted it. */
   | { say: "wrote"; path: string; text: string | null }
-  /** Whether the browser keeps a file that was saved. */
   | { say: "kept"; path: string; isKept: boolean }
   /** An assistant is ready, or has done a part. */
   | { say: "assisting" }

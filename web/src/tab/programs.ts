@@ -41,7 +41,6 @@ export class Programs {
   #program = "";
 
   constructor(
-    /** Starts a worker with a program and all files. */
     private readonly start: () => Worker,
     /** Takes a message of a program, with what answers it. */
     private readonly said: (message: FromWorker, from: Aside) => void,
@@ -50,7 +49,6 @@ export class Programs {
     [this.#work, this.#probe, this.#search] = [aside(), aside(), aside()];
   }
 
-  /** Where live exports are made. */
   get work(): Aside {
     return this.#work;
   }
@@ -83,7 +81,6 @@ export class Programs {
     return place !== undefined;
   }
 
-  /** Starts the program that will compile the next circuit. */
   prepare(): void {
     this.#next ??= new Aside(this.start, (message, from) => this.#receive(message, from));
     this.#next.begin();
@@ -147,7 +144,6 @@ export class Programs {
   }
 }
 
-/** Whether a text is the answer that a circuit is compiled. */
 function isSwarm(text: string): boolean {
   const answer = JSON.parse(text) as ServerMessage;
   return "ok" in answer && "to" in answer && (answer.to === "compile" || answer.to === "replay");

@@ -8,7 +8,6 @@ import { decodeBase64 } from "../share/packed";
 interface PackedPage {
   style: string;
   script: string;
-  /** The script of its worker. */
   worker: string;
 }
 

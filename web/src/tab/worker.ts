@@ -4,16 +4,14 @@
 import { Crew } from "./crew";
 import { Engine } from "./engine";
 import { FileStore } from "./files";
-import type { FromWorker, Source, ToWorker } from "./messages";
+import type { FromWorker, LiveParts, Source, ToWorker } from "./messages";
 
 const pause = new MessageChannel();
 let engine: Engine | null = null;
 let compiled: WebAssembly.Module | null = null;
 let crew: Crew | null = null;
 let store: FileStore | null = null;
-/** Messages that came before the program was there. */
 const waiting: ToWorker[] = [];
-/** Whether the page has drawn the last frame. */
 let hasRoom = true;
 let timer: ReturnType<typeof setTimeout> | undefined;
 let isPosted = false;
@@ -50,7 +48,8 @@ function fail(message: string): void {
 }
 
 async function begin({ program, first, files, keeps }: Extract<ToWorker, { say: "begin" }>): Promise<void> {
-  const compiling = "module" in program ? program.module : WebAssembly.compileStreaming(await read(program));
+  const compiling =
+    "module" in program ? Promise.resolve(program.module) : WebAssembly.compileStreaming(await read(program));
   store = keeps ? await FileStore.open() : null;
   const all = [...files, ...((await store?.all()) ?? [])];
   let panic: string | null = null;
@@ -105,7 +104,6 @@ async function assist(module: WebAssembly.Module): Promise<void> {
   say({ say: "assisting" });
 }
 
-/** The message of a panic, if there was one. */
 let failing: () => string | null = () => null;
 
 /** The program as a response that the browser compiles while it comes. */
@@ -134,16 +132,19 @@ async function fetched({ address, bytes }: { address: string; bytes: number }): 
 }
 
 /** Gives the program the page that live exports are made of. Without it the program says that they cannot be made. */
-async function template(engine: Engine, address: string): Promise<void> {
-  const response = await fetch(address, { cache: "no-cache" }).catch(() => null);
-  if (response?.ok === true) {
-    const text = await response.text();
-    guard(() => engine.template(text));
+async function template(engine: Engine, { page, program }: LiveParts): Promise<void> {
+  const answers = await Promise.all([page, program].map(part => fetch(part).catch(() => null)));
+  const [text, packed] = await Promise.all(
+    answers.map(answer => (answer?.ok === true ? answer.blob() : Promise.resolve(null))),
+  );
+  if (text && packed) {
+    const [, letters = ""] = new FileReaderSync().readAsDataURL(packed).split(",");
+    const whole = (await text.text()).replace("{{program}}", letters);
+    guard(() => engine.template(whole));
   }
   say({ say: "template" });
 }
 
-/** Keeps a file in the browser, if it keeps any, or deletes it. */
 function keep(path: string, text: string | null): void {
   if (text === null) {
     store?.remove(path);
@@ -172,7 +173,7 @@ function take(engine: Engine, message: ToWorker): void {
       keep(message.path, message.text);
       break;
     case "template":
-      void template(engine, message.address);
+      void template(engine, message);
       break;
     case "drawn":
       hasRoom = true;

@@ -4,7 +4,6 @@ import { strFromU8, strToU8, unzipSync, zipSync } from "fflate";
 
 import type { KeptFiles } from "./files";
 
-/** Why an archive cannot be read, for the user. */
 export class ZipError extends Error {}
 
 /** The most bytes of an archive, of a file in it, and of all of them; and the most files. */
@@ -12,10 +11,11 @@ const MOST_ARCHIVE = 20_000_000;
 export const MOST_FILE = 1_000_000;
 const MOST_BYTES = 20_000_000;
 const MOST_FILES = 1000;
+/** What a name must not have: nobody could see it. */
+export const INVISIBLE = /[\p{C}\p{Zl}\p{Zp}]/u;
 /** The same files give the same archive. */
 const DATE = new Date(1980, 0, 1);
 
-/** Makes an archive. */
 export function zip(files: KeptFiles): Uint8Array {
   const all = files.map(([path, text]) => [path, strToU8(text)] as const);
   return zipSync(Object.fromEntries(all), { mtime: DATE, level: 9 });
@@ -93,13 +93,12 @@ function pathOf(name: string): string | null {
   if (parts.at(-1) === "" || parts.some(part => (part.startsWith(".") && part !== "..") || part === "__MACOSX")) {
     return null;
   }
-  if (parts.some(part => part === "" || part === ".." || /[\u0000-\u001f\u007f]/.test(part))) {
+  if (parts.some(part => part === "" || part === ".." || INVISIBLE.test(part))) {
     throw new ZipError(`the archive has a file outside of its folder: ${name}`);
   }
   return parts.join("/");
 }
 
-/** A text; null if it is none. */
 export function decoded(bytes: Uint8Array): string | null {
   const text = strFromU8(bytes);
   return text.includes("\ufffd") ? null : text;

@@ -1,4 +1,4 @@
-//! Findings: diagnostics with file names, lines and columns, for programs and pages.
+//! Diagnostics for programs and pages.
 
 use serde::Serialize;
 

@@ -119,10 +119,16 @@ fn faults(file: FileId, text: &str, read: &mut ReadLesson<'_>, world: &SharedWor
     let mut session = Session::new(world.clone());
     let mut found = Vec::new();
     let mut ports = Vec::new();
-    for (at, piece) in read.program.iter().chain(&read.typed).enumerate() {
+    let programs: Vec<Piece<'_>> = read.program.iter().chain(&read.typed).copied().collect();
+    let mut texts: Vec<Vec<Piece<'_>>> = programs.iter().map(|&piece| vec![piece]).collect();
+    // A hidden test is for the program above it.
+    for &(above, test) in &read.hidden {
+        texts.push(programs[..above].last().copied().into_iter().chain([test]).collect());
+    }
+    for (at, pieces) in texts.iter().enumerate() {
         let path = format!("lesson_{}.nb", read.entry.name);
         // All but the program is blank, so that places are those of the lesson.
-        session.update(&path, at as u64 + 1, alone(text, *piece));
+        session.update(&path, at as u64 + 1, alone(text, pieces));
         let checked = session.checked(&path);
         ports.extend(ports_of(&checked));
         found.extend(checked.diagnostics.iter().filter(|one| one.is_error()).map(|one| moved(one, &checked, file)));
@@ -137,8 +143,8 @@ fn faults(file: FileId, text: &str, read: &mut ReadLesson<'_>, world: &SharedWor
     found
 }
 
-fn alone(text: &str, piece: Piece<'_>) -> String {
-    let is_inside = |at: usize| (piece.at..piece.at + piece.text.len()).contains(&at);
+fn alone(text: &str, pieces: &[Piece<'_>]) -> String {
+    let is_inside = |at: usize| pieces.iter().any(|piece| (piece.at..piece.at + piece.text.len()).contains(&at));
     let blank = |(at, letter): (usize, char)| match letter {
         '\n' => "\n".to_owned(),
         _ if is_inside(at) => letter.to_string(),

@@ -9,7 +9,8 @@ use crate::message::{LessonCheck, LessonEntry, LessonGoal, LessonMeasure, Lesson
 pub(super) const HINTS: usize = 3;
 const FENCE: &str = "```";
 const PROGRAM: &str = "```nb";
-const OF_LESSON: [&str; 3] = ["tab", "best", "hint"];
+const HIDDEN: &str = "```nb hidden";
+const OF_LESSON: [&str; 4] = ["chapter", "tab", "best", "hint"];
 const OF_STEP: [&str; 3] = ["check", "hint", "do"];
 
 #[derive(Debug)]
@@ -17,6 +18,8 @@ pub(super) struct ReadLesson<'a> {
     pub(super) entry: LessonEntry,
     pub(super) program: Option<Piece<'a>>,
     pub(super) typed: Vec<Piece<'a>>,
+    /// The hidden tests, each after the number of programs above it.
+    pub(super) hidden: Vec<(usize, Piece<'a>)>,
     pub(super) ports: Vec<Piece<'a>>,
     pub(super) mistakes: Vec<Mistaken>,
 }
@@ -34,6 +37,7 @@ pub(super) fn read<'a>(name: &str, text: &'a str) -> ReadLesson<'a> {
     let entry = LessonEntry {
         name: name.to_owned(),
         title: String::new(),
+        chapter: None,
         text: Vec::new(),
         program: None,
         written: None,
@@ -42,7 +46,14 @@ pub(super) fn read<'a>(name: &str, text: &'a str) -> ReadLesson<'a> {
         best: None,
         steps: Vec::new(),
     };
-    let lesson = ReadLesson { entry, program: None, typed: Vec::new(), ports: Vec::new(), mistakes: Vec::new() };
+    let lesson = ReadLesson {
+        entry,
+        program: None,
+        typed: Vec::new(),
+        hidden: Vec::new(),
+        ports: Vec::new(),
+        mistakes: Vec::new(),
+    };
     let start = lines(text).into_iter().find(|line| !line.text.trim().is_empty()).unwrap_or(Piece { text, at: 0 });
     let mut reader = Reader { lesson, heading: None, types: None, typed: None, fields: Vec::new(), start };
     blocks(text).into_iter().for_each(|block| reader.block(block));
@@ -132,13 +143,18 @@ impl<'a> Reader<'a> {
     }
 
     fn code(&mut self, fence: Piece<'a>, text: Piece<'a>, ends: bool) {
-        if fence.text != PROGRAM {
+        let step = self.lesson.entry.steps.last_mut().filter(|_| fence.text == HIDDEN);
+        if fence.text != PROGRAM && step.is_none() {
             return self.mistake(fence, wording::LANGUAGE);
         }
         if !ends {
             return self.mistake(fence, wording::OPEN_BLOCK);
         }
-        if self.heading.is_some() {
+        if let Some(step) = step {
+            step.checks.push(LessonCheck::Passes { test: text.text.to_owned() });
+            let programs = usize::from(self.lesson.program.is_some()) + self.lesson.typed.len();
+            self.lesson.hidden.push((programs, text));
+        } else if self.heading.is_some() {
             if self.typed.replace(fence).is_some() {
                 self.mistake(fence, wording::SECOND_PROGRAM);
             }
@@ -156,9 +172,9 @@ impl<'a> Reader<'a> {
         let first = lines[0];
         let Some((name, value)) = first.split_once(':') else { return self.mistake(first, wording::NO_FIELD) };
         let (name, value) = (name.trim(), value.trim());
-        let known = if self.heading.is_some() { OF_STEP } else { OF_LESSON };
-        let Some(field) = known.into_iter().find(|known| *known == name.text) else {
-            return self.lesson.mistakes.push(wording::UNKNOWN_FIELD.at(name).known(known));
+        let known: &[&str] = if self.heading.is_some() { &OF_STEP } else { &OF_LESSON };
+        let Some(&field) = known.iter().find(|known| **known == name.text) else {
+            return self.lesson.mistakes.push(wording::UNKNOWN_FIELD.at(name).known(known.iter().copied()));
         };
         let text = joined(&[&[value], &lines[1..]].concat());
         if text.is_empty() {
@@ -174,6 +190,10 @@ impl<'a> Reader<'a> {
             "check" => self.check(value),
             "do" => self.deed(value),
             _ if self.fields.contains(&field) => self.mistake(name, wording::FIELD_TWICE),
+            "chapter" => {
+                self.fields.push("chapter");
+                self.lesson.entry.chapter = Some(text);
+            }
             "tab" => {
                 self.fields.push("tab");
                 let tab = one_of(value, &["swarm", "tests", "robots"]);

@@ -21,6 +21,8 @@ pub(crate) struct LessonEntry {
     /// The name of its file without the number and the ending.
     pub(crate) name: String,
     pub(crate) title: String,
+    /// The chapter that begins with it.
+    pub(crate) chapter: Option<String>,
     /// Its paragraphs; code is between backticks.
     pub(crate) text: Vec<String>,
     /// The program that it begins with.
@@ -115,6 +117,10 @@ pub(crate) enum LessonCheck {
     },
     TestsPass,
     TestsFail,
+    /// The program passes this test, which the learner does not see.
+    Passes {
+        test: String,
+    },
     /// The program claims something, and everything that it claims is proved.
     ClaimsProved,
     ClaimsRefuted,
