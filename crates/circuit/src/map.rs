@@ -12,7 +12,7 @@ use crate::passes::{self, dissolve_wires, sweep};
 use crate::proof::state_names;
 use crate::recipes::{Operand, Recipe, Recipes};
 use crate::signal_blocks::SignalBlocks;
-use crate::synth::{CellNetwork, reduce, widen};
+use crate::synth::{CellNetwork, reduce_between_registers, widen};
 use crate::{BlockId, MapError, NetId, Netlist, Node, RegisterNode};
 use nbc_base::budget::Limit;
 use nbc_base::model::Function;
@@ -113,8 +113,8 @@ impl<'a> Mapper<'a> {
         let cuts: Vec<NetId> = self.states().collect();
         let view = View::of(self.source, &cuts).expect("every loop passes through cells that are kept");
         let (network, sinks) = self.logic(&view);
-        let reduced =
-            reduce(&network, &self.stages(), self.library, options).map_err(|missing| self.missing(missing))?;
+        let reduced = reduce_between_registers(&network, &self.stages(), self.library, options);
+        let reduced = reduced.map_err(|missing| self.missing(missing))?;
         let cells = widen(&network, &reduced, &self.stages(), self.library, options);
         let ports: Vec<usize> = (0..network.inputs).collect();
         let blocks = SignalBlocks::of(self.source, &view).of_cells(&network, &cells, &ports);

@@ -1,16 +1,20 @@
-//! Proofs that the cells of a register do what it does, for each kind, start and form, whatever forces it. They are
-//! small enough that all their states are visited.
-
-use std::collections::BTreeSet;
+//! Proofs that the cells of a register do for ever what it does, for each kind, start and form, whatever forces it, by
+//! the search that decides properties.
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::*;
 use crate::Delayed;
+use crate::and_graph::{AndGraph, AndLiteral};
 use crate::example::multiplexer_library;
 use crate::network::View;
 use crate::passes::{share, sweep};
+use crate::properties::{PropertySearch, PropertyVerdict, SearchBudget, SystemRegister, TransitionSystem};
+use nbc_base::source::CancelFlag;
+
+/// Cells that have not settled after so many steps, as a power of two, never do.
+const TIME_BITS: usize = 5;
 
 const KINDS: [RegisterKind; 4] = [RegisterKind::Rising, RegisterKind::Falling, RegisterKind::High, RegisterKind::Low];
 const FORCINGS: [Forcing; 3] = [Forcing::Never, Forcing::ToStart, Forcing::SetReset];
@@ -32,22 +36,36 @@ fn alone(register: &RegisterNode) -> Netlist {
     netlist
 }
 
-/// What the node means: its value after its pins have changed to `now`.
-fn meaning(register: &RegisterNode, q: bool, before: &[bool], now: &[bool]) -> bool {
+/// What the node means: its value after its pins have changed.
+fn meaning(
+    graph: &mut AndGraph,
+    register: &RegisterNode,
+    value: AndLiteral,
+    [before, now]: [&[AndLiteral]; 2],
+) -> AndLiteral {
     let (was_on, is_on) = (before[1], now[1]);
     let takes = match register.kind {
-        RegisterKind::Rising => is_on && !was_on,
-        RegisterKind::Falling => !is_on && was_on,
+        RegisterKind::Rising => graph.and(is_on, was_on ^ 1),
+        RegisterKind::Falling => graph.and(is_on ^ 1, was_on),
         RegisterKind::High => is_on,
-        RegisterKind::Low => !is_on,
+        RegisterKind::Low => is_on ^ 1,
     };
+    let taken = graph.choice(takes, now[0], value);
     match now[2..] {
-        [true] => register.starts_at(),
-        [_, true] => false,
-        [true, false] => true,
-        _ if takes => now[0],
-        _ => q,
+        [reset] => graph.choice(reset, AndLiteral::from(register.starts_at()), taken),
+        [set, reset] => {
+            let kept = graph.choice(set, 1, taken);
+            graph.and(kept, reset ^ 1)
+        }
+        _ => taken,
     }
+}
+
+/// The same of values.
+fn value_after(register: &RegisterNode, value: bool, before: &[bool], now: &[bool]) -> bool {
+    let [value, before, now] =
+        [&[value], before, now].map(|bits| bits.iter().map(|&bit| AndLiteral::from(bit)).collect::<Vec<_>>());
+    meaning(&mut AndGraph::new(0), register, value[0], [&before, &now]) == 1
 }
 
 fn of_cells(register: &RegisterNode, form: RegisterForm) -> Netlist {
@@ -59,49 +77,79 @@ fn of_cells(register: &RegisterNode, form: RegisterForm) -> Netlist {
     cells
 }
 
-/// Visits every state that cells of one delay reach by changes of one pin at a time, and compares what they show once
-/// they are settled with the meaning of the node.
-fn check_all_states(register: &RegisterNode, form: RegisterForm) {
-    let netlist = of_cells(register, form);
-    let cells: Vec<NetId> = netlist.cells().map(|(id, _)| id).collect();
-    let step = View::of(&netlist, &cells).unwrap().network;
-    let logic = crate::Logic::new(&netlist);
-    let shown = |cells: &[bool], pins: &[bool]| step.run(pins.iter().chain(cells).copied())[0];
-    let settled = |pins: &[bool], mut cells: Vec<bool>| {
-        for _ in 0..50 {
-            let next = step.run(pins.iter().chain(&cells).copied()).split_off(1);
-            if next == cells {
-                return cells;
-            }
-            cells = next;
-        }
-        panic!("{register:?} does not settle at {pins:?}");
-    };
-    let pins = vec![false; netlist.inputs().len()];
-    let at_start = settled(&pins, cells.iter().map(|&id| logic.value(id)).collect());
-    let expected = if register.kind == RegisterKind::Low { false } else { register.starts_at() };
-    assert_eq!(shown(&at_start, &pins), expected, "{register:?} at the start");
-    let mut seen: BTreeSet<(Vec<bool>, Vec<bool>)> = BTreeSet::new();
-    let mut open = vec![(pins, at_start)];
-    while let Some((pins, cells)) = open.pop() {
-        for at in 0..pins.len() {
-            let mut now = pins.clone();
-            now[at] = !now[at];
-            let next = settled(&now, cells.clone());
-            let expected = meaning(register, shown(&cells, &pins), &pins, &now);
-            assert_eq!(shown(&next, &now), expected, "{register:?} {form:?} from {pins:?} to {now:?}");
-            if seen.insert((now.clone(), next.clone())) {
-                open.push((now, next));
-            }
-        }
+/// The cells with one delay beside the node: in a step, either the cells take new values, or one pin changes because
+/// nothing else does. It is bad if settled cells show something else than the node, or if they never settle.
+fn beside(register: &RegisterNode, cells: &Netlist) -> TransitionSystem {
+    let nets: Vec<NetId> = cells.cells().map(|(id, _)| id).collect();
+    let step = View::of(cells, &nets).expect("all loops are cut").network;
+    let (pins, count) = (cells.inputs().len(), nets.len());
+    let mut graph = AndGraph::new(2 * pins + count + 1 + TIME_BITS);
+    let mut sources = (0..2 * pins + count + 1 + TIME_BITS).map(|at| graph.source(at)).collect::<Vec<_>>().into_iter();
+    let mut take = |number: usize| sources.by_ref().take(number).collect::<Vec<_>>();
+    let [wishes, now, own, value, time] = [pins, pins, count, 1, TIME_BITS].map(&mut take);
+    let next = graph.outputs(&step, &[now.as_slice(), &own].concat());
+    let settled = own.iter().zip(&next[1..]).fold(1, |all, (&one, &other)| {
+        let is_same = graph.choice(one, other, other ^ 1);
+        graph.and(all, is_same)
+    });
+    let mut is_free = settled;
+    let mut after = now.clone();
+    for (pin, &wish) in after.iter_mut().zip(&wishes) {
+        let changes = graph.and(is_free, wish);
+        *pin = graph.choice(changes, *pin ^ 1, *pin);
+        is_free = graph.and(is_free, wish ^ 1);
     }
+    let taken = meaning(&mut graph, register, value[0], [&now, &after]);
+    let mut all_ones = 1;
+    let mut later = Vec::new();
+    for &bit in &time {
+        let turned = graph.choice(all_ones, bit ^ 1, bit);
+        later.push(graph.and(turned, settled ^ 1));
+        all_ones = graph.and(all_ones, bit);
+    }
+    let differs = graph.choice(next[0], value[0] ^ 1, value[0]);
+    let bad = vec![graph.and(settled, differs), all_ones];
+    let logic = crate::Logic::new(cells);
+    let shown = register.kind != RegisterKind::Low && register.starts_at();
+    let starts = (0..pins).map(|_| false).chain(nets.iter().map(|&id| logic.value(id))).chain([shown]);
+    let starts = starts.chain([false; TIME_BITS]);
+    let nexts = after.iter().chain(&next[1..]).chain([&taken]).chain(&later);
+    let state = |(start, &next)| SystemRegister { name: String::new(), start: Some(start), next };
+    TransitionSystem {
+        inputs: vec![String::new(); pins],
+        registers: starts.zip(nexts).map(state).collect(),
+        ands: graph.ands.items,
+        bad,
+        constraints: Vec::new(),
+    }
+}
+
+fn verdicts(register: &RegisterNode, cells: &Netlist) -> Vec<PropertyVerdict> {
+    PropertySearch::new(beside(register, cells), SearchBudget::default(), CancelFlag::default()).finish()
 }
 
 #[test]
 fn the_cells_of_every_register_do_for_ever_what_it_means() {
     for register in all() {
-        check_all_states(&register, RegisterForm::Nands);
-        check_all_states(&register, RegisterForm::Multiplexers);
+        for form in [RegisterForm::Nands, RegisterForm::Multiplexers] {
+            let found = verdicts(&register, &of_cells(&register, form));
+            assert!(
+                found.iter().all(|one| matches!(one, PropertyVerdict::Proved(_))),
+                "{register:?} {form:?} {found:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_cells_of_another_register_are_refuted() {
+    for register in all() {
+        let other = RegisterNode { kind: register.kind.opposite(), ..register.clone() };
+        let found = verdicts(&register, &of_cells(&other, RegisterForm::Nands));
+        assert!(
+            matches!(found[..], [PropertyVerdict::Refuted(_), PropertyVerdict::Proved(_)]),
+            "{register:?} {found:?}"
+        );
     }
 }
 
@@ -123,7 +171,7 @@ fn the_cells_of_every_register_work_for_all_delays() {
                 let before = pins.clone();
                 let at = draw(pins.len() as u32);
                 pins[at] = !pins[at];
-                q = meaning(&register, q, &before, &pins);
+                q = value_after(&register, q, &before, &pins);
                 assert_eq!(delayed.run(&pins, 40), [q], "{register:?} {form:?} {pins:?}");
             }
         }
