@@ -55,7 +55,10 @@ pub(super) fn of(files: &Files<'_>, file: FileId, part: std::ops::Range<usize>) 
         }
         let next = all.get(at + 1).map_or("", |next| &text[next.range.clone()]);
         let Some((kind, modifiers)) = meaning(files, file, &uses, text, token, next) else { continue };
-        let range = lines.range(token.range.clone());
+        // No token of the protocol goes beyond its line.
+        let shown = &text[token.range.clone()];
+        let end = token.range.start + shown.find(['\n', '\r']).unwrap_or(shown.len());
+        let range = lines.range(token.range.start..end);
         let delta_line = range.start.line - line;
         let delta_start = range.start.character - if delta_line == 0 { column } else { 0 };
         (line, column) = (range.start.line, range.start.character);
