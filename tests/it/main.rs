@@ -58,6 +58,7 @@ mod proving;
 mod python;
 mod redundant;
 mod results;
+mod retyping;
 mod riscv;
 mod runs;
 mod schemas;

@@ -30,7 +30,7 @@ impl<'a> Spot<'a> {
 
     pub(super) fn around(&self) -> Option<&'a Declaration> {
         let declarations = &self.files.checked.tree(self.file)?.declarations;
-        declarations.iter().find(|declaration| self.is_in(declaration.span))
+        declarations.iter().find(|declaration| self.is_in(declaration.span)).map(|found| &**found)
     }
 
     pub(super) fn is_in(&self, span: Span) -> bool {

@@ -6,6 +6,7 @@ use nbc_base::model::{Instance, Program};
 use nbc_base::source::{FileId, ForeignCircuit, MemoryWorld, SourceWorld, Sources, Span};
 use nbc_circuit::{NetWidths, elaborate};
 use nbc_lang::check::{self, Analysis, NameUses};
+use nbc_lang::syntax::KnownDeclarations;
 use nbc_lang::syntax::tree::Tree;
 
 /// A source with its program and its diagnostics.
@@ -34,10 +35,10 @@ pub struct Checked {
 }
 
 impl Checked {
-    pub(super) fn read(world: &dyn SourceWorld, path: &str, revision: u64) -> Self {
+    pub(super) fn read(world: &dyn SourceWorld, path: &str, revision: u64, known: &mut KnownDeclarations) -> Self {
         let mut sources = Sources::default();
         let (file, analysis) = match check::open(world, path, &mut sources) {
-            Ok(file) => (Some(file), check::check(world, &mut sources, file)),
+            Ok(file) => (Some(file), check::check_again(world, &mut sources, file, known)),
             Err(fault) => (None, Analysis { diagnostics: vec![fault], ..Analysis::default() }),
         };
         let Analysis { program, diagnostics, uses, widths, trees, instances, foreign, is_cancelled } = analysis;

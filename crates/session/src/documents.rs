@@ -8,6 +8,7 @@ use crate::buildable;
 use crate::checked::Checked;
 use crate::robots::{BuiltIn, RobotSources};
 use nbc_base::source::{CancelFlag, FileError, OverlayWorld, SourceWorld, VerilogError, VerilogFiles, VerilogModules};
+use nbc_lang::syntax::KnownDeclarations;
 
 pub(super) struct Documents {
     world: OverlayWorld<Box<dyn SourceWorld + Send + Sync>>,
@@ -18,6 +19,7 @@ pub(super) struct Documents {
     revisions: BTreeMap<String, u64>,
     known: BTreeMap<String, Known>,
     readings: Readings,
+    parsed: KnownDeclarations,
 }
 
 /// Results of reading Verilog, by the paths of the files.
@@ -37,6 +39,7 @@ impl Documents {
             revisions: BTreeMap::new(),
             known: BTreeMap::new(),
             readings: Readings::new(),
+            parsed: KnownDeclarations::default(),
         }
     }
 
@@ -76,7 +79,7 @@ impl Documents {
         let readings = RefCell::new(std::mem::take(&mut self.readings));
         let asking =
             RecordingWorld { world: &self.world, asked: RefCell::default(), readings, is_cancelled: Cell::default() };
-        let mut checked = Checked::read(&asking, path, revision);
+        let mut checked = Checked::read(&asking, path, revision, &mut self.parsed);
         if !checked.has_errors() {
             let robots = RobotSources { world: &asking, built_in: &self.built_in, file: path };
             let cancel = asking.cancel();

@@ -7,7 +7,7 @@ use crate::elaborate::module::{Module, ModuleId, ModuleSignal, Passes, Site};
 use crate::elaborate::wording;
 use nbc_base::budget::{Limit, OverBudget};
 use nbc_base::diag::Diagnostic;
-use petgraph::algo::kosaraju_scc;
+use petgraph::algo::{kosaraju_scc, toposort};
 use petgraph::graph::{DiGraph, NodeIndex};
 
 impl Builder<'_> {
@@ -132,6 +132,10 @@ impl Builder<'_> {
 }
 
 fn loops(graph: &DiGraph<(), ()>) -> Vec<Vec<usize>> {
+    // Most modules have none, which is quick to see.
+    if toposort(graph, None).is_ok() {
+        return Vec::new();
+    }
     let is_loop = |nodes: &Vec<NodeIndex>| nodes.len() > 1 || graph.contains_edge(nodes[0], nodes[0]);
     let numbers = |nodes: Vec<NodeIndex>| {
         let mut numbers: Vec<_> = nodes.into_iter().map(NodeIndex::index).collect();

@@ -21,7 +21,7 @@ impl<'a> Declarations<'a> {
     }
 
     pub(crate) fn all(&self) -> impl Iterator<Item = (Home, &'a tree::Declaration)> + use<'a> {
-        self.trees.iter().flat_map(|(home, tree)| tree.declarations.iter().map(|declaration| (*home, declaration)))
+        self.trees.iter().flat_map(|(home, tree)| tree.declarations.iter().map(|declaration| (*home, &**declaration)))
     }
 
     pub(crate) fn own(&self) -> impl Iterator<Item = &'a tree::Declaration> + use<'a> {

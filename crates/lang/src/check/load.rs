@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::check::foreign::{Foreign, ForeignDesign};
 use crate::check::names::Home;
 use crate::check::wording;
-use crate::syntax::parse;
 use crate::syntax::tree::{DeclarationKind, TestKind, Text, Tree};
+use crate::syntax::{KnownDeclarations, parse_again};
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Suggestion, similar_file};
 use nbc_base::source::{FileError, FileId, ForeignCircuit, ProofOrigin, SourceWorld, Sources, Span};
@@ -53,8 +53,13 @@ pub fn open(world: &dyn SourceWorld, path: &str, sources: &mut Sources) -> Resul
     }
 }
 
-pub(crate) fn load(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Loaded {
-    let mut loader = Loader { world, loaded: Loaded::default(), open: Vec::new(), done: Vec::new() };
+pub(crate) fn load(
+    world: &dyn SourceWorld,
+    sources: &mut Sources,
+    file: FileId,
+    known: &mut KnownDeclarations,
+) -> Loaded {
+    let mut loader = Loader { world, known, loaded: Loaded::default(), open: Vec::new(), done: Vec::new() };
     for (name, text) in PRELUDE {
         let id = sources.add(name, text);
         loader.parse(sources, id, Home::Prelude);
@@ -65,6 +70,7 @@ pub(crate) fn load(world: &dyn SourceWorld, sources: &mut Sources, file: FileId)
 
 struct Loader<'a> {
     world: &'a dyn SourceWorld,
+    known: &'a mut KnownDeclarations,
     loaded: Loaded,
     /// Outermost first: identity and path as written.
     open: Vec<(String, String)>,
@@ -73,7 +79,7 @@ struct Loader<'a> {
 
 impl Loader<'_> {
     fn parse(&mut self, sources: &Sources, id: FileId, home: Home) {
-        let parsed = parse(sources, id);
+        let parsed = parse_again(sources, id, self.known);
         self.loaded.faults.extend(parsed.errors);
         self.loaded.trees.push((home, parsed.tree));
     }
@@ -81,7 +87,7 @@ impl Loader<'_> {
     fn file(&mut self, sources: &mut Sources, id: FileId, home: Home) {
         let name = normal(&sources.file(id).name);
         let identity = self.world.identity(&name);
-        let parsed = parse(sources, id);
+        let parsed = parse_again(sources, id, self.known);
         if home == Home::Own && parsed.tree.declarations.is_empty() && parsed.errors.is_empty() {
             self.loaded.faults.push(wording::empty_file(&sources.file(id).name, Span::new(id, 0, 0)));
         }

@@ -47,10 +47,21 @@ pub use swarm::DEFAULT_LIBRARY;
 pub use uses::{NameKind, NameUse, NameUses};
 pub use verilog_files::verilog_files;
 
+use crate::syntax::KnownDeclarations;
 use nbc_base::source::{FileId, SourceWorld, Sources};
 
 pub fn check(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Analysis {
-    let loaded = load::load(world, sources, file);
+    check_again(world, sources, file, &mut KnownDeclarations::default())
+}
+
+/// Checks a text of which some declarations may be known from before.
+pub fn check_again(
+    world: &dyn SourceWorld,
+    sources: &mut Sources,
+    file: FileId,
+    known: &mut KnownDeclarations,
+) -> Analysis {
+    let loaded = load::load(world, sources, file, known);
     let mut analysis = program::program(world, &loaded, sources);
     let diagnostics = &mut analysis.diagnostics;
     consequences::forget(diagnostics, sources, &loaded);

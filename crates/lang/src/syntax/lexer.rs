@@ -31,14 +31,31 @@ const PAIRS: [[u8; 2]; 11] = [*b"->", *b"=>", *b"==", *b"!=", *b"<=", *b">=", *b
 pub fn tokens(text: &str) -> impl Iterator<Item = Token> {
     let (mut at, mut is_first) = (0, true);
     std::iter::from_fn(move || {
-        let start = at + text[at..].find(|c: char| !c.is_whitespace())?;
-        is_first |= text[at..start].contains(['\n', '\r']);
+        let start = at + run(&text[at..], |b| b.is_ascii_whitespace() || b == 0xb, char::is_whitespace);
+        if start == text.len() {
+            return None;
+        }
+        is_first |= text.as_bytes()[at..start].iter().any(|b| matches!(b, b'\n' | b'\r'));
         let (kind, length) = token(&text[start..]);
         at = start + length;
         let token = Token { kind, range: start..at, is_first };
         is_first &= matches!(kind, TokenKind::Comment | TokenKind::ForeignComment);
         Some(token)
     })
+}
+
+/// The bytes up to the first character that is no such one. Most are ASCII, which needs no decoding.
+fn run(text: &str, ascii: impl Fn(u8) -> bool, all: impl Fn(char) -> bool) -> usize {
+    let bytes = text.as_bytes();
+    let plain = bytes.iter().position(|&b| !ascii(b)).unwrap_or(bytes.len());
+    match bytes.get(plain) {
+        Some(128..) => plain + text[plain..].find(|c| !all(c)).unwrap_or(bytes.len() - plain),
+        _ => plain,
+    }
+}
+
+fn word(text: &str) -> usize {
+    run(text, |b| b.is_ascii_alphanumeric() || b == b'_', is_word)
 }
 
 fn token(rest: &str) -> (TokenKind, usize) {
@@ -50,7 +67,7 @@ fn token(rest: &str) -> (TokenKind, usize) {
         '#' => (TokenKind::ForeignComment, line()),
         '"' => (TokenKind::Quoted, quoted(rest)),
         c if c.is_ascii_digit() => (TokenKind::Number, number(rest)),
-        c if is_word(c) => (TokenKind::Word, rest.find(|c| !is_word(c)).unwrap_or(rest.len())),
+        c if is_word(c) => (TokenKind::Word, word(rest)),
         _ if rest.as_bytes().first_chunk().is_some_and(|pair| PAIRS.contains(pair)) => (TokenKind::Sign, 2),
         c => (TokenKind::Sign, c.len_utf8()),
     }

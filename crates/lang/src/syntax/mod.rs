@@ -21,5 +21,6 @@ mod wording;
 
 pub use format::format;
 pub use lexer::{Token, TokenKind, tokens};
-pub use parse::{Parsed, parse, parse_instance};
+pub(crate) use parse::parse_again;
+pub use parse::{KnownDeclarations, Parsed, parse, parse_instance};
 pub use split::KEYWORDS;

@@ -1,6 +1,8 @@
 //! From text to the tree, one declaration after another; never fails.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 use pest::Parser;
 
@@ -10,7 +12,7 @@ use crate::syntax::grammar::{NbParser, Rule};
 use crate::syntax::part::{PartKind, PartPlace};
 use crate::syntax::recover;
 use crate::syntax::split::{SourcePiece, Split, split};
-use crate::syntax::tree::{BrokenSyntax, InstanceSyntax, Tree};
+use crate::syntax::tree::{BrokenSyntax, Declaration, InstanceSyntax, Tree, moved};
 use crate::syntax::wording;
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
@@ -22,7 +24,16 @@ pub struct Parsed {
     pub errors: Vec<Diagnostic>,
 }
 
+/// The declarations without faults of the last text of each file, by the name of the file and their own text.
+#[derive(Default)]
+pub struct KnownDeclarations(BTreeMap<String, BTreeMap<String, Arc<Declaration>>>);
+
 pub fn parse(sources: &Sources, file: FileId) -> Parsed {
+    parse_again(sources, file, &mut KnownDeclarations::default())
+}
+
+/// Parses only what is not known.
+pub(crate) fn parse_again(sources: &Sources, file: FileId, known: &mut KnownDeclarations) -> Parsed {
     let text = &sources.file(file).text;
     if Limit::SourceBytes.permit(text.len() as u64).is_err() {
         let error = wording::large_file(text.len(), Limit::SourceBytes.most(), Span::new(file, 0, 0));
@@ -39,9 +50,26 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
         let span = Span::new(file, comment.start, comment.end);
         parsed.errors.push(wording::foreign_comment(&text[comment.clone()], &text[comment.end..], span));
     }
+    let name = &sources.file(file).name;
+    let mut before = known.0.remove(name).unwrap_or_default();
+    let mut now = BTreeMap::new();
     for piece in &split.pieces {
+        let source = &text[piece.range.clone()];
+        if let Some((source, declaration)) = before.remove_entry(source) {
+            let declaration = moved(declaration, file, piece.range.start as u32);
+            parsed.tree.declarations.push(declaration.clone());
+            now.insert(source, declaration);
+            continue;
+        }
+        let faults = (parsed.errors.len(), parsed.tree.broken.len());
         parse_piece(text, file, &split, piece, &mut parsed);
+        if faults == (parsed.errors.len(), parsed.tree.broken.len())
+            && let Some(declaration) = parsed.tree.declarations.last()
+        {
+            now.insert(source.to_owned(), declaration.clone());
+        }
     }
+    known.0.insert(name.clone(), now);
     parsed.errors.sort_by_key(|error| error.labels.first().map(|label| label.span));
     parsed
 }
@@ -117,7 +145,7 @@ fn parse_piece(text: &str, file: FileId, split: &Split, piece: &SourcePiece, par
         converter.errors.extend(found.errors);
     }
     parsed.errors.append(&mut converter.errors);
-    parsed.tree.declarations.extend(tree);
+    parsed.tree.declarations.extend(tree.map(Arc::new));
 }
 
 fn blank(text: &mut String, range: Range<usize>) {

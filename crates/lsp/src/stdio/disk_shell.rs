@@ -1,5 +1,7 @@
 //! The disk and the threads around a language service.
 
+use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::{fs, thread};
 
@@ -17,6 +19,8 @@ pub(super) struct DiskShell<W> {
     queue: Sender<LanguageWork>,
     wake: Sender<()>,
     results: Mutex<ResultFolder>,
+    /// The paths of written texts by their names. A name always has the same text.
+    written: Mutex<BTreeMap<String, PathBuf>>,
 }
 
 impl<W: SourceWorld> DiskShell<W> {
@@ -31,7 +35,7 @@ impl<W: SourceWorld> DiskShell<W> {
                 let _ = done.try_send(());
             }
         });
-        Self { world, pending, queue, wake, results: Mutex::default() }
+        Self { world, pending, queue, wake, results: Mutex::default(), written: Mutex::default() }
     }
 
     pub(super) fn remove_results(&self) {
@@ -69,10 +73,17 @@ impl<W: SourceWorld + Clone + Send + Sync + 'static> LanguageShell for DiskShell
     }
 
     fn write_text(&self, name: &str, text: &str) -> Option<String> {
-        let path = store::temporary_folder().ok().filter(|_| self.shows_results())?.join(name);
-        if fs::read_to_string(&path).ok().as_deref() != Some(text) {
-            store::write(&path, text.as_bytes()).ok()?;
-        }
+        let mut written = self.written.lock().unwrap_or_else(PoisonError::into_inner);
+        let path = match written.get(name).filter(|path| path.exists()) {
+            Some(path) => path,
+            None => {
+                let path = store::temporary_folder().ok().filter(|_| self.shows_results())?.join(name);
+                if fs::read_to_string(&path).ok().as_deref() != Some(text) {
+                    store::write(&path, text.as_bytes()).ok()?;
+                }
+                written.entry(name.to_owned()).insert_entry(path).into_mut()
+            }
+        };
         Some(path.to_string_lossy().into_owned())
     }
 

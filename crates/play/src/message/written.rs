@@ -29,7 +29,8 @@ impl WrittenProgram {
         let tree = parse(&sources, file).tree;
         let code = |span: Span| sources.text(span);
         let mut written = Self { text: plain(text), ..Self::default() };
-        for Declaration { span, kind } in &tree.declarations {
+        for declaration in &tree.declarations {
+            let Declaration { span, kind } = &**declaration;
             if matches!(kind, DeclarationKind::Circuit(_)) {
                 written.words.extend(words(code(*span)).filter(|word| *word != "->").map(str::to_owned));
             }

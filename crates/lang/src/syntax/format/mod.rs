@@ -9,6 +9,8 @@ mod prove;
 mod record;
 mod rows;
 
+use std::sync::Arc;
+
 use crate::syntax::format::layout::WIDTH;
 use crate::syntax::format::printer::Printer;
 use crate::syntax::tree::{Declaration, DeclarationKind, SizeSyntaxId, Text, Tree};
@@ -29,7 +31,7 @@ pub fn format(sources: &Sources, file: FileId, tree: &Tree) -> String {
 
 impl Printer<'_> {
     /// Prints the first declaration, or all adjacent one-line records at the start; returns how many.
-    fn declarations(&mut self, rest: &[Declaration]) -> usize {
+    fn declarations(&mut self, rest: &[Arc<Declaration>]) -> usize {
         let run = self.record_run(rest);
         if !run.is_empty() {
             for (declaration, text) in rest.iter().zip(&run) {

@@ -1,5 +1,7 @@
 //! Records: on one line if they fit, else one field per line.
 
+use std::sync::Arc;
+
 use crate::syntax::format::expression::arguments;
 use crate::syntax::format::layout::WIDTH;
 use crate::syntax::format::printer::Printer;
@@ -15,7 +17,7 @@ const ROW_WIDTH: usize = 120;
 const MOST_ROWS: usize = 200;
 
 impl Printer<'_> {
-    pub(super) fn record_run(&self, declarations: &[Declaration]) -> Vec<String> {
+    pub(super) fn record_run(&self, declarations: &[Arc<Declaration>]) -> Vec<String> {
         let mut run: Vec<(&RecordDeclaration, Span)> = Vec::new();
         for declaration in declarations {
             let DeclarationKind::Record(record) = &declaration.kind else { break };

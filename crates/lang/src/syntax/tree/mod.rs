@@ -3,10 +3,13 @@
 
 mod circuit;
 mod expression;
+mod moved;
 mod prove;
 mod record;
 mod size;
 mod test;
+
+use std::sync::Arc;
 
 use nbc_base::source::Span;
 
@@ -14,6 +17,7 @@ pub use circuit::{
     BodySyntax, CircuitSyntax, Grouping, ParameterSyntax, Port, StatementKind, StatementSyntax, TargetSyntax,
 };
 pub use expression::{ExpressionSyntax, ExpressionSyntaxKind, Infix, OperandSyntax, TableOutputSyntax, TableRowSyntax};
+pub(crate) use moved::moved;
 pub use prove::{PropertySyntax, Prove};
 pub use record::{
     Field, InstanceSyntax, Number, Quantity, RecordDeclaration, RecordKeyword, RecordSyntax, ScheduleSyntax,
@@ -24,7 +28,7 @@ pub use test::{Simulate, Test, TestItem, TestKind, TestRowSyntax, TestTable, Unt
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tree {
-    pub declarations: Vec<Declaration>,
+    pub declarations: Vec<Arc<Declaration>>,
     pub broken: Vec<BrokenSyntax>,
     /// Each from its `//` to the end of its line.
     pub comments: Vec<Span>,
