@@ -82,6 +82,9 @@ pub(super) fn map(
         RegisterStyle::MasterSlave => map(source),
         RegisterStyle::Mux => map(source)?.held().ok_or_else(|| vec![for_circuit(wording::no_multiplexer(), place)]),
         RegisterStyle::Waves => {
+            if plan.world.world.lateness() > 0 {
+                return Err(vec![for_circuit(wording::waves_need_a_beat(&plan.world.name), place)]);
+            }
             permit(&source, gates, place)?;
             let mapping = map_waves(source, &plan.library, plan.waves, options);
             mapping.map_err(|fault| vec![for_circuit(fault, place)])
@@ -112,7 +115,8 @@ pub(super) fn compile(
 ) -> Result<Compiled, Vec<Diagnostic>> {
     let mapping = map(source, &plan, options, place, Limit::SwarmGates)?;
     permit(&mapping.netlist, Limit::Robots, place)?;
-    let timing = mapping.timing();
+    let mut timing = mapping.timing();
+    timing.hold = plan.stretched(timing.hold as usize) as u32;
     let assembly = match &mapping.waves {
         None => nbc_swarm::assemble(&mapping.netlist, &plan.library),
         Some(machine) => {

@@ -24,7 +24,8 @@ fn holds(rows: &[TestRow], compiled: &Compiled, usual: Hold) -> Vec<[usize; 2]> 
     let mut settling = Settling::new(&compiled.assembly, window as usize);
     let hold = |(i, row): (usize, &TestRow)| {
         let most = if i == 0 { bound + compiled.assembly.start_cycles() } else { bound };
-        let needed = settling.cycles_to_settle(&row.inputs, most).unwrap_or(most) + STEADY_EXTRA;
+        let settled = settling.cycles_to_settle(&row.inputs, most);
+        let needed = settled.map_or(most, |cycles| compiled.plan.stretched(cycles)) + STEADY_EXTRA;
         let hold = match (row.hold, usual) {
             (Some(cycles), _) | (None, Hold::Cycles(cycles)) => cycles.max(1) as usize,
             (None, Hold::Auto) => needed,

@@ -58,7 +58,7 @@ pub(super) fn of_swarm(
     options: &CompileOptions,
 ) -> Result<Plan, Vec<Diagnostic>> {
     let library = robots(sources, program, declaration.map(|swarm| swarm.library.as_str()), options)?;
-    Ok(Plan {
+    let plan = Plan {
         circuit: circuit.clone(),
         swarm: declaration.map(|swarm| swarm.name.clone()),
         library: nbc_swarm::prefer(library, options.objective),
@@ -66,8 +66,24 @@ pub(super) fn of_swarm(
         window: declaration.map_or(1, |swarm| swarm.window),
         registers: declaration.map_or(RegisterStyle::default(), |swarm| swarm.registers),
         waves: declaration.map_or(WaveTimes::default(), |swarm| swarm.waves),
-        world: declaration.map_or_else(|| program.default_world(), |swarm| swarm.world.clone()),
-    })
+        world: NamedWorld::default(),
+    };
+    Ok(plan.in_world(declaration.map_or_else(|| program.default_world(), |swarm| swarm.world.clone())))
+}
+
+impl Plan {
+    pub(super) fn in_world(mut self, world: NamedWorld) -> Self {
+        for robot in &mut self.library.robots {
+            let clock = &mut robot.character.clock;
+            *clock = *clock + world.world.lateness() - self.world.world.lateness();
+        }
+        Self { world, ..self }
+    }
+
+    /// Cycles of the world in which each robot makes so many of its own.
+    pub(super) fn stretched(&self, cycles: usize) -> usize {
+        (cycles as f64 * (1.0 + self.world.world.noise.drift)).ceil() as usize
+    }
 }
 
 pub(super) fn robots(

@@ -107,9 +107,10 @@ pub(super) fn cases(
     let plans = plans(sources, program, &test.circuit, &options.compile)?;
     let mut rows_of_test = None;
     let mut cases = Vec::new();
-    for mut plan in plans {
+    for plan in plans {
         let worlds = if test.worlds.is_empty() { vec![plan.world.clone()] } else { test.worlds.clone() };
-        plan.world.clone_from(&worlds[0]);
+        let slowest = worlds.iter().max_by(|a, b| slowness(a).total_cmp(&slowness(b)));
+        let plan = plan.in_world(slowest.expect("there is a world").clone());
         let mut compiled = compile(program, netlist.clone(), plan, &options.compile.mapping(), test.span)?;
         if level.is_none() && compiled.assembly.members.len() >= LARGE {
             return logic(netlist);
@@ -145,6 +146,11 @@ pub(super) fn cases(
         }
     }
     Ok(cases)
+}
+
+/// By how much robots take longer in a world.
+fn slowness(world: &NamedWorld) -> f64 {
+    world.world.noise.drift + f64::from(world.world.lateness())
 }
 
 fn permit_cycles(test: &CircuitTest, cycles: u64) -> Result<(), Vec<Diagnostic>> {

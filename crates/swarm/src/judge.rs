@@ -183,6 +183,7 @@ mod tests {
                     sensed: vec![Pattern::new(&[a, false])],
                     bits: vec![y],
                     outputs: vec![y],
+                    flips: Vec::new(),
                 })
                 .collect(),
             recording: Recording::default(),

@@ -195,8 +195,9 @@ mod tests {
         }
         .in_world(PhysicsWorld {
             factors: WorldFactors { friction: 0.9, ..WorldFactors::default() },
-            noise: WorldNoise { start: 0.5, missed: 0.4, weak: 0.1, dead: 0.1, seed: 3 },
+            noise: WorldNoise { start: 0.5, missed: 0.4, weak: 0.1, dead: 0.1, seed: 3, ..WorldNoise::default() },
             ground: GroundProfile::new(&[0, 0, 0, 2]).unwrap(),
+            ..PhysicsWorld::default()
         })
     }
 

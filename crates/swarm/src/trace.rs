@@ -43,6 +43,17 @@ pub struct CycleTrace {
     /// Each robot's output at the cycle's end.
     pub bits: Vec<bool>,
     pub outputs: Vec<bool>,
+    /// The outputs that changed before the cycle's end, in order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub flips: Vec<Flip>,
+}
+
+/// The change of an output within a cycle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Flip {
+    /// From the start of the cycle.
+    pub env_step: u32,
+    pub robot: usize,
 }
 
 impl SwarmTrace {
