@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::Flip;
 use crate::own_clock::Heard;
 use nbc_base::model::{Fault, FaultKind};
 use nbc_sim::{Snapshot, State};
@@ -11,6 +12,8 @@ use nbc_sim::{Snapshot, State};
 pub struct KeptSwarm {
     /// For each cycle, the outputs of the robots as hexadecimal digits of four each.
     bits: Vec<String>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) flips: Vec<Flip>,
     robots: Vec<KeptRobot>,
 }
 
@@ -32,6 +35,7 @@ const FAULTS: [FaultKind; 3] = [FaultKind::Unstable, FaultKind::NonFinite, Fault
 impl KeptSwarm {
     pub(super) fn new<'a>(
         cycles: impl Iterator<Item = &'a [bool]>,
+        flips: Vec<Flip>,
         robots: impl Iterator<Item = (Snapshot, Heard)>,
     ) -> Self {
         let robot = |(snapshot, Heard { output, places }): (Snapshot, Heard)| {
@@ -40,7 +44,7 @@ impl KeptSwarm {
             let fault = fault.map(|fault| (fault.env_step, number(fault.kind)));
             KeptRobot { position, previous, velocity, center, clock, fault, output, places: places.into() }
         };
-        Self { bits: cycles.map(digits).collect(), robots: robots.map(robot).collect() }
+        Self { bits: cycles.map(digits).collect(), flips, robots: robots.map(robot).collect() }
     }
 
     pub fn cycles(&self) -> usize {

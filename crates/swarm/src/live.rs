@@ -163,7 +163,8 @@ impl LiveSwarm {
     pub fn keep(&self) -> KeptSwarm {
         assert_eq!(self.forgotten, 0, "the outputs of all cycles are kept");
         let robot = |robot: usize| (self.flock.snapshot(robot), self.hearing.heard[robot].clone());
-        KeptSwarm::new(self.trace.cycles.iter().map(|cycle| &cycle.bits[..]), (0..self.flock.len()).map(robot))
+        let bits = self.trace.cycles.iter().map(|cycle| &cycle.bits[..]);
+        KeptSwarm::new(bits, self.trace.flips.clone(), (0..self.flock.len()).map(robot))
     }
 
     /// Continues from a kept swarm with these inputs; returns whether it fits. Earlier paths are unknown: it stands still.
@@ -176,11 +177,12 @@ impl LiveSwarm {
             let sizes = [state.position.len(), state.previous.len(), state.velocity.len()];
             sizes == [points(at); 3] && !heard.places.is_empty()
         };
-        if !kept.robots().enumerate().all(fits) {
+        let are_there = kept.flips.iter().all(|flip| flip.robot < assembly.members.len());
+        if !are_there || !kept.robots().enumerate().all(fits) {
             return false;
         }
         let recording = std::mem::take(&mut self.trace.recording);
-        (self.sensing, self.trace) = Sensing::replayed(assembly, &outputs, inputs);
+        (self.sensing, self.trace) = Sensing::replayed(assembly, &outputs, &kept.flips, inputs);
         self.trace.recording = recording;
         for (i, (snapshot, heard)) in kept.robots().enumerate() {
             self.flock.restore(i, &snapshot);
@@ -202,7 +204,6 @@ impl LiveSwarm {
     ) -> Result<&CycleTrace, RobotFault> {
         let (sensed, start) = (sensing.sensed.clone(), self.cycles() as u32 * CYCLE_STEPS);
         let before = std::mem::replace(&mut self.sensing, sensing);
-        let mut flips = Vec::new();
         let mut stops = self.stops.clone();
         stops.extend(self.hearing.stops(start));
         for (at, &stop) in stops.iter().enumerate() {
@@ -214,7 +215,8 @@ impl LiveSwarm {
             }
             if stop < CYCLE_STEPS && !changed.is_empty() {
                 self.sensing.sense(&self.trace, self.cycles(), &inputs);
-                flips.extend(changed.into_iter().map(|robot| Flip { env_step: stop, robot }));
+                let flip = |robot| Flip { env_step: start + stop, robot };
+                self.trace.flips.extend(changed.into_iter().map(flip));
             }
             self.record_stop(stop);
         }
@@ -223,12 +225,12 @@ impl LiveSwarm {
         }
         if let Some(fault) = self.trace.fault() {
             self.sensing = before;
-            self.trace.forget_unfinished();
+            self.trace.forget_unfinished(start);
             return Err(fault);
         }
         let bits = self.hearing.bits();
         let outputs = self.trace.shown.iter().map(|&signal| signal.bit(&inputs, &bits)).collect();
-        self.trace.cycles.push(CycleTrace { inputs, sensed, bits, outputs, flips });
+        self.trace.cycles.push(CycleTrace { inputs, sensed, bits, outputs });
         Ok(&self.trace.cycles[self.trace.cycles.len() - 1])
     }
 
@@ -258,4 +260,77 @@ fn begin_recording(trace: &mut SwarmTrace, room: Room, flock: &dyn Flock, cycles
     trace.recording = Recording::new(flock, robots, stride);
     trace.recording.record(flock);
     stride
+}
+
+#[cfg(test)]
+mod tests {
+    use nbc_base::model::{Body, Hears, Palette, PhysicsWorld, WorldNoise};
+    use nbc_sim::{InstructionSet, Kernel, LaneBackend};
+
+    use super::*;
+    use crate::{PlainMember, StimulusSource, SwarmTask};
+
+    /// Bodies of the library: an inverter and a NAND.
+    fn ring(robots: usize, world: PhysicsWorld) -> Assembly {
+        let rows = [["37150", "77735", "02543", "00253", "33333"], ["37555", "77755", "02562", "00263", "33333"]];
+        let member = |i: usize| PlainMember {
+            body: Body::parse(&rows[i % 2], &Palette::paper()).unwrap(),
+            clock: 1,
+            senses: vec![StimulusSource::Robot((i + robots - 1) % robots), StimulusSource::Input(0)],
+            start: i % 3 == 0,
+            held: vec![Vec::new(); 2],
+        };
+        SwarmTask::new((0..robots).map(member).collect(), world, vec![vec![true]], 1).assembly.in_world(world)
+    }
+
+    fn simulators() -> impl Iterator<Item = Simulator> {
+        let kernels = InstructionSet::available().into_iter();
+        let kernels =
+            kernels.flat_map(|set| Kernel::WIDTHS.into_iter().filter_map(move |lanes| Kernel::new(set, lanes)));
+        kernels.map(|kernel| Simulator::new(LaneBackend { kernel, ..LaneBackend::default() }))
+    }
+
+    fn run(swarm: &mut LiveSwarm, cycles: std::ops::Range<usize>) {
+        cycles.for_each(|cycle| drop(swarm.step(&[cycle % 4 < 2]).unwrap().clone()));
+    }
+
+    #[test]
+    fn robots_that_are_read_one_by_one_have_the_bits_of_those_that_are_read_together() {
+        for simulator in simulators() {
+            let assembly = ring(4, PhysicsWorld::default());
+            let trace = |is_common: bool| {
+                let mut swarm = LiveSwarm::new(&simulator, &assembly, 6, 1, None);
+                swarm.hearing.is_common &= is_common;
+                run(&mut swarm, 0..6);
+                swarm.into_trace()
+            };
+            assert_eq!(trace(true), trace(false));
+        }
+    }
+
+    #[test]
+    fn robots_with_clocks_of_their_own_have_the_same_bits_for_all_kernels_and_after_a_pause() {
+        let noise = WorldNoise { phase: 1.0, drift: 0.02, missed: 0.1, seed: 4, ..WorldNoise::default() };
+        for hears in [Hears::Cycle, Hears::Always] {
+            let assembly = ring(4, PhysicsWorld { noise, hears, ..PhysicsWorld::default() });
+            let whole = |simulator: &Simulator| {
+                let mut swarm = LiveSwarm::new(simulator, &assembly, 6, 1, None);
+                run(&mut swarm, 0..6);
+                swarm.into_trace()
+            };
+            let traces: Vec<SwarmTrace> = simulators().map(|simulator| whole(&simulator)).collect();
+            assert!(!traces[0].flips.is_empty());
+            assert!(traces.iter().all(|trace| *trace == traces[0]));
+
+            let simulator = Simulator::default();
+            let mut first = LiveSwarm::new(&simulator, &assembly, 6, 1, None);
+            run(&mut first, 0..4);
+            let mut second = LiveSwarm::new(&simulator, &assembly, 6, 1, None);
+            let inputs: Vec<Vec<bool>> = (0..6).map(|cycle| vec![cycle % 4 < 2]).collect();
+            assert!(second.go_on(&first.keep(), &assembly, &inputs));
+            run(&mut second, 4..6);
+            let bits = |trace: &SwarmTrace| trace.cycles.iter().map(|cycle| cycle.bits.clone()).collect::<Vec<_>>();
+            assert_eq!((bits(second.trace()), &second.trace().flips), (bits(&traces[0]), &traces[0].flips));
+        }
+    }
 }

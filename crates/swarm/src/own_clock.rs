@@ -44,7 +44,7 @@ impl OwnClock {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Hearing {
     clocks: Vec<OwnClock>,
-    is_common: bool,
+    pub is_common: bool,
     hears: Hears,
     /// Cycles over which a displacement is measured.
     window: usize,

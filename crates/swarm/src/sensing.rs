@@ -1,7 +1,7 @@
 //! The stimuli of the robots of a swarm, which follow from the outputs of other robots.
 
 use crate::noise::RobotNoise;
-use crate::{Assembly, CycleTrace, RobotTrace, StimulusSource, SwarmTrace};
+use crate::{Assembly, CycleTrace, Flip, RobotTrace, StimulusSource, SwarmTrace};
 use nbc_base::model::{CYCLE_STEPS, Pattern, WorldNoise};
 
 #[derive(Clone, Debug, PartialEq)]
@@ -31,17 +31,35 @@ impl Sensing {
     }
 
     /// What its robots sense in these first cycles, and its trace without their paths.
-    pub fn replayed(assembly: &Assembly, cycles: &[Vec<bool>], inputs: &[Vec<bool>]) -> (Self, SwarmTrace) {
+    pub fn replayed(
+        assembly: &Assembly,
+        cycles: &[Vec<bool>],
+        flips: &[Flip],
+        inputs: &[Vec<bool>],
+    ) -> (Self, SwarmTrace) {
         let mut trace = SwarmTrace::begin(assembly);
         let mut sensing = Self::of(assembly);
+        let mut heard = vec![false; assembly.members.len()];
+        let mut flips_left = flips;
         for (bits, inputs) in cycles.iter().zip(inputs) {
             let cycle = trace.cycles.len();
+            let end = (cycle + 1) as u32 * CYCLE_STEPS;
             sensing.sense(&trace, cycle, inputs);
-            sensing.take((cycle + 1) as u32 * CYCLE_STEPS, bits);
+            let sensed = sensing.sensed.clone();
+            let within = flips_left.partition_point(|flip| flip.env_step < end);
+            for together in flips_left[..within].chunk_by(|one, next| one.env_step == next.env_step) {
+                together.iter().for_each(|flip| heard[flip.robot] ^= true);
+                sensing.take(together[0].env_step, &heard);
+                sensing.sense(&trace, cycle, inputs);
+            }
+            flips_left = &flips_left[within..];
+            sensing.take(end, bits);
+            heard.clone_from(bits);
             let outputs = trace.shown.iter().map(|&signal| signal.bit(inputs, bits)).collect();
-            let (inputs, sensed) = (inputs.clone(), sensing.sensed.clone());
-            trace.cycles.push(CycleTrace { inputs, sensed, bits: bits.clone(), outputs, flips: Vec::new() });
+            let inputs = inputs.clone();
+            trace.cycles.push(CycleTrace { inputs, sensed, bits: bits.clone(), outputs });
         }
+        trace.flips = flips.to_vec();
         (sensing, trace)
     }
 
