@@ -39,6 +39,9 @@ impl Variation {
         "drift",
     ];
 
+    /// The word for no change but that of the seed, from which noise is drawn.
+    pub const SEED: &str = "seed";
+
     /// The word for all factors.
     pub const ALL: &str = "all";
 
@@ -167,9 +170,12 @@ impl TryFrom<BTreeMap<String, f64>> for Variation {
 impl FromStr for Variation {
     type Err = String;
 
-    /// Reads `friction=10%,start=0.2`. All factors are `all=10%`, or `10%` by itself.
+    /// Reads `friction=10%,start=0.2`. All factors are `all=10%`, or `10%` by itself; `seed` is no change.
     fn from_str(text: &str) -> Result<Self, String> {
         let mut amounts = [0.0; COUNT];
+        if text == Self::SEED {
+            return Ok(Self::default());
+        }
         if text.ends_with('%') && !text.contains('=') {
             return format!("{}={text}", Self::ALL).parse();
         }
@@ -198,7 +204,7 @@ impl fmt::Display for Variation {
     /// The quantities that vary: `friction 10 %, start 0.2`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let words = self.words(" ", " %");
-        if words.is_empty() { f.write_str("nothing") } else { f.write_str(&words.join(", ")) }
+        if words.is_empty() { f.write_str(Self::SEED) } else { f.write_str(&words.join(", ")) }
     }
 }
 
