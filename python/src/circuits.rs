@@ -92,6 +92,7 @@ impl Compiled {
                 Node::Constant(_) => ("constant", None),
                 Node::Wire { .. } => ("wire", None),
                 Node::Cell(cell) => ("cell", Some(cell.function.name())),
+                Node::Register(register) => ("register", Some(register.kind.word())),
             };
             json!({ "id": id.index(), "net": netlist.net_name(id), "kind": kind, "function": function })
         };

@@ -136,10 +136,6 @@ fn describe_passes(source: Netlist) -> String {
     text
 }
 
-/// Added to the timing of a circuit whose registers have a form without a proof.
-const UNPROVED_REGISTERS: &str =
-    "registers are not proved to store what they stored before they became latches of another form\n";
-
 fn describe_timing(mapping: &Mapping) -> String {
     let Mapping { netlist: mapped, cells: library, kept, waves, .. } = mapping;
     let timing = mapping.timing();
@@ -152,8 +148,7 @@ fn describe_timing(mapping: &Mapping) -> String {
     let settles = report::describe_settling(timing.hold, &path, &mapped.net_names(&rings(mapped)));
     let phases = PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), kept).describe();
     let memory = report::describe_memory(&Memory::all(mapped, &timing, clocks(mapped, library)));
-    let unproved = if mapping.unproved_registers { UNPROVED_REGISTERS } else { "" };
-    settles + &phases + unproved + &memory + &loads
+    settles + &phases + &memory + &loads
 }
 
 fn clocks<'a>(mapped: &'a Netlist, library: &'a CellLibrary) -> impl Fn(NetId) -> u32 + 'a {
@@ -184,8 +179,6 @@ pub(super) struct BuiltCircuit<'a> {
     waves: Option<WaveTiming>,
     /// Always true: a circuit whose logic is not proved is an error.
     proved: bool,
-    /// Whether registers became latches of another form without a proof that these store the same.
-    unproved_registers: bool,
     /// The robots that `--harden` left out.
     hardened: Option<Hardened>,
     /// Null if the circuit is too large to look for them.
@@ -253,7 +246,6 @@ impl<'a> BuiltCircuit<'a> {
             phases: PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), kept),
             waves: waves.as_ref().map(WaveTiming::of),
             proved: true,
-            unproved_registers: mapping.unproved_registers,
             hardened: (!hardened.tried.is_empty()).then_some(hardened),
             races,
         }

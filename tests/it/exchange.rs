@@ -6,7 +6,7 @@ use nbc_base::model::{Function, Instance};
 use nbc_base::source::FileId;
 use nbc_circuit::formats::{CircuitFormat, Design, Forcing, Register, RegisterKind, aiger, blif, buses, dot, pla};
 use nbc_circuit::passes::{self, dissolve_wires};
-use nbc_circuit::{Cell, Guarded, Logic, Loops, NetId, Netlist, elaborate, prove};
+use nbc_circuit::{Cell, Guarded, Logic, Loops, NetId, Netlist, as_nands, elaborate, prove};
 use nbc_session::store::{self, CircuitFile, DiskWorld, TopModule};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
@@ -22,7 +22,7 @@ fn gallery() -> Vec<Netlist> {
         let checked = nbc::Session::new(DiskWorld).checked(path.to_str().unwrap());
         let tested: std::collections::BTreeSet<Instance> =
             checked.program.tests.iter().map(|test| test.circuit.clone()).collect();
-        found.extend(tested.iter().map(|circuit| elaborate(&checked.program, circuit).unwrap()));
+        found.extend(tested.iter().map(|circuit| as_nands(&elaborate(&checked.program, circuit).unwrap())));
     }
     assert!(found.len() > 10, "the gallery has circuits");
     found

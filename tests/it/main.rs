@@ -40,6 +40,7 @@ mod links;
 mod live;
 mod long_program;
 mod lsp;
+mod machines;
 mod manual;
 mod memory;
 mod misread;

@@ -2,7 +2,7 @@
 
 use nbc_base::model::{Function, Instance, Program};
 
-use nbc_circuit::{CellLibrary, Delayed, Guarded, Netlist, Role, elaborate, map, prove};
+use nbc_circuit::{CellLibrary, Delayed, Guarded, Netlist, RegisterForm, Role, elaborate, lower, map, prove};
 
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
@@ -140,7 +140,7 @@ pub fn mapped(text: &str, cells: &CellLibrary) -> Netlist {
     let source = elaborate(&program(text), &Instance::from("memory")).unwrap();
     let mapped = map(&source, cells).unwrap();
     prove(&source, &mapped).unwrap();
-    mapped
+    lower(&mapped, cells, RegisterForm::Nands).unwrap()
 }
 
 /// Switches one input after another, holds each until the circuit has settled, and compares every output with the model

@@ -148,6 +148,8 @@ fn the_circuit_is_shown_after_each_pass_that_changes_it() {
 
     dissolve-wires (replaces wires by their drivers): no change
 
+    turn-clocks (removes inverters before clocks): no change
+
     fold-constants (simplifies cells with constant or repeated pins): 2 cells
     netlist a(x, y) -> (q, r) {
         n5 = and(x, y)

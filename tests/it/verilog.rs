@@ -137,8 +137,7 @@ fn an_asynchronous_reset_needs_no_edge_of_the_clock() {
     bench.ok("test used.nb --logic");
     // Every format that keeps registers, and cells.
     for (out, more) in [("a.nb", &[][..]), ("a.blif", &[]), ("b.nb", &["--registers", "expand"])] {
-        let ran = bench.ok(&[&["synth", "counter.v", "--cells", "nand,not", "-o", out], more].concat());
-        assert_eq!(ran.out.contains(" but for the cells of its registers,"), !more.is_empty(), "{}", ran.out);
+        bench.ok(&[&["synth", "counter.v", "--cells", "nand,not", "-o", out], more].concat());
         let name = format!("test_{out}.nb");
         match out.strip_suffix(".nb") {
             Some(_) => {

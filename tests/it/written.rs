@@ -3,7 +3,7 @@
 use nbc_base::model::{Function, Instance};
 use nbc_base::source::{FileId, MemoryWorld, Sources};
 use nbc_circuit::formats::{CircuitFormat, Design, Forcing, Register, RegisterKind, aiger, blif, buses};
-use nbc_circuit::{Logic, NetId, Netlist, elaborate, registers};
+use nbc_circuit::{Logic, NetId, Netlist, elaborate};
 use nbc_lang::{check, syntax};
 use nbc_session::store;
 use proptest::prelude::*;
@@ -166,7 +166,7 @@ fn registers_become_calls_that_do_the_same() {
     {
         assert!(text.contains(call), "`{call}` is not in\n{text}");
     }
-    let made = registers::expand(&design);
+    let made = design.netlist();
     let (mut first, mut second) = (Logic::new(&made), Logic::new(&again));
     let outs = order(&made, made.outputs());
     for row in 0..40u32 {

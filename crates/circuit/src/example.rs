@@ -4,8 +4,8 @@ use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 
 use crate::network::{Network, Signal};
-use crate::registers::flip_flop;
-use crate::{CellLibrary, NetId, Netlist};
+use crate::register::{Forcing, RegisterKind};
+use crate::{CellLibrary, NetId, Netlist, RegisterNode};
 use nbc_base::model::Function;
 
 pub fn latch() -> Netlist {
@@ -24,6 +24,21 @@ pub fn latch() -> Netlist {
     netlist.add_output("q", q);
     netlist.add_output("nq", nq);
     netlist
+}
+
+pub fn register(
+    netlist: &mut Netlist,
+    kind: RegisterKind,
+    name: &str,
+    [data, clock]: [NetId; 2],
+    start: bool,
+) -> NetId {
+    let (forcing, name) = (Forcing::Never, Some(name.to_owned()));
+    netlist.add_register(RegisterNode { kind, forcing, start: Some(start), name, span: None }, &[data, clock])
+}
+
+pub fn flip_flop(netlist: &mut Netlist, name: &str, data: NetId, clock: NetId, start: bool) -> NetId {
+    register(netlist, RegisterKind::Rising, name, [data, clock], start)
 }
 
 pub fn full_adder() -> Netlist {

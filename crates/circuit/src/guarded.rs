@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::known::{TernaryBit, answer};
 use crate::loops::Loops;
-use crate::{NetId, Netlist, Node};
+use crate::{NetId, Netlist, Node, RegisterNode};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
@@ -37,6 +37,7 @@ impl Guarded {
             controls.extend(controls_of(netlist, &element, &guards));
             guarded.roles.extend(guards.into_iter().map(|id| (id, Role::Guard)));
         }
+        controls.extend(netlist.registers().map(|(id, _)| netlist.pins(id)[usize::from(RegisterNode::CLOCK)]));
         guarded.add_control_cone(netlist, controls);
         guarded
     }
@@ -115,9 +116,9 @@ fn fixes(netlist: &Netlist, id: NetId, net: NetId, value: bool) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::example::latch;
+    use crate::as_nands;
+    use crate::example::{flip_flop, latch};
     use crate::passes::dissolve_wires;
-    use crate::registers;
     use nbc_base::model::Function;
 
     fn check(netlist: &Netlist, memory: usize, guards: usize, controls: usize) {
@@ -141,9 +142,10 @@ mod tests {
         let data = netlist.add_gate(Function::XOR, &[a, b]);
         let wanted = netlist.add_gate(Function::OR, &[a, b]);
         let enable = netlist.add_gate(Function::AND, &[clock, wanted]);
-        let q = registers::flip_flop(&mut netlist, "q", data, enable, false);
+        let q = flip_flop(&mut netlist, "q", data, enable, false);
         netlist.add_output("q", q);
-        check(&netlist, 4, 4, 3);
+        check(&netlist, 0, 0, 2);
+        check(&as_nands(&netlist), 4, 4, 3);
     }
 
     #[test]
@@ -152,9 +154,9 @@ mod tests {
         let clock = netlist.add_input("clk");
         let one = netlist.add_constant(true);
         for (name, data) in [("p", one), ("q", clock)] {
-            let q = registers::flip_flop(&mut netlist, name, data, clock, false);
+            let q = flip_flop(&mut netlist, name, data, clock, false);
             netlist.add_output(name, q);
         }
-        check(&netlist, 8, 8, 2);
+        check(&as_nands(&netlist), 8, 8, 1);
     }
 }

@@ -12,7 +12,7 @@ pub(crate) fn levelize(netlist: &Netlist) -> BTreeMap<NetId, u32> {
 
 /// For every net, the most nodes that count on a path to it and including it. The nodes of a loop core are alike.
 pub(crate) fn most_before(netlist: &Netlist, counts: impl Fn(NetId) -> bool) -> BTreeMap<NetId, u32> {
-    let loops = Loops::of(netlist);
+    let loops = Loops::through_registers(netlist);
     let mut levels = BTreeMap::new();
     for &id in loops.order() {
         let members = loops.core_of(id).map_or(std::slice::from_ref(&id), |core| &loops.cores()[core]);

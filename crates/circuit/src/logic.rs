@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 
 use crate::Oscillation;
 use crate::clause::ValuedBit;
+use crate::lowering::as_nands;
 use crate::netlist::{NetId, Netlist, Node};
 use nbc_base::model::Function;
 
@@ -29,8 +30,11 @@ struct Gate {
 }
 
 impl Logic {
-    /// Cells without a start value have what follows from inputs of 0, if that settles.
+    /// Cells without a start value have what follows from inputs of 0, if that settles. Registers are of NAND cells.
     pub fn new(netlist: &Netlist) -> Self {
+        if netlist.registers().next().is_some() {
+            return Self::new(&as_nands(netlist));
+        }
         let slots = netlist.graph().node_indices().map(|id| id.index() as u32 + 1).max().unwrap_or(0);
         let mut logic = Self {
             inputs: netlist.inputs().iter().map(|id| id.index() as u32).collect(),

@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use crate::components::Components;
 use crate::{NetId, Netlist};
 
-/// The loops of a netlist, and an order of its nodes with drivers first, except on loops.
+/// The loops of a netlist, and an order of its nodes with drivers first, except on loops. Registers cut loops and are
+/// first.
 #[derive(Clone, Debug)]
 pub struct Loops {
     cores: Vec<Vec<NetId>>,
@@ -16,9 +17,19 @@ pub struct Loops {
 
 impl Loops {
     pub fn of(netlist: &Netlist) -> Self {
-        let mut components = Components::new(netlist.graph()).from(netlist.ids(), |_| true);
+        Self::inside(netlist, |id| netlist.register(id).is_none())
+    }
+
+    /// Also those through registers.
+    pub(crate) fn through_registers(netlist: &Netlist) -> Self {
+        Self::inside(netlist, |_| true)
+    }
+
+    fn inside(netlist: &Netlist, inside: impl Fn(NetId) -> bool) -> Self {
+        let mut components = Components::new(netlist.graph()).from(netlist.ids(), &inside);
         components.reverse();
-        let mut loops = Self { cores: Vec::new(), core_of: BTreeMap::new(), order: Vec::new() };
+        let order = netlist.ids().filter(|&id| !inside(id)).collect();
+        let mut loops = Self { cores: Vec::new(), core_of: BTreeMap::new(), order };
         for mut component in components {
             component.sort_unstable();
             loops.order.extend(&component);
@@ -41,8 +52,9 @@ impl Loops {
             loops.core_of.extend(kept.iter().map(|&id| (id, loops.cores.len())));
             loops.cores.push(kept);
         }
-        let components = Components::new(netlist.graph()).from(netlist.ids(), |id| !loops.core_of.contains_key(&id));
-        loops.order = loops.cores.concat();
+        let is_logic = |id| !loops.core_of.contains_key(&id) && netlist.register(id).is_none();
+        let components = Components::new(netlist.graph()).from(netlist.ids(), is_logic);
+        loops.order = netlist.registers().map(|(id, _)| id).chain(loops.cores.concat()).collect();
         loops.order.extend(components.into_iter().rev().flatten());
         loops
     }
@@ -110,10 +122,11 @@ mod tests {
         let clock = netlist.add_input("clk");
         let q = netlist.add_wire("q", Some(false), None);
         let next = netlist.add_gate(nbc_base::model::Function::NOT, &[q]);
-        let state = crate::registers::flip_flop(&mut netlist, "q", next, clock, false);
+        let state = crate::example::flip_flop(&mut netlist, "q", next, clock, false);
         netlist.drive(q, 0, state);
         netlist.add_output("q", q);
-        crate::passes::dissolve_wires(&mut netlist).unwrap();
+        assert!(Loops::of(&netlist).cores().is_empty(), "a register cuts a loop");
+        let netlist = crate::as_nands(&netlist);
         assert_eq!(Loops::of(&netlist).cores().concat().len(), 9);
         assert_eq!(Loops::memory(&netlist).cores().concat().len(), 4);
         assert_eq!(Loops::memory(&netlist).order().len(), netlist.ids().count());

@@ -5,14 +5,15 @@ use std::collections::BTreeMap;
 use crate::cells::{CellKind, CellLibrary};
 use crate::guarded::Guarded;
 use crate::levels::most_before;
+use crate::lowering::{gate_data, needed};
 use crate::network::{Network, Signal, View};
 use crate::options::{MapOptions, MappingObjective};
 use crate::passes::{self, dissolve_wires, sweep};
-use crate::proof::core_names;
+use crate::proof::state_names;
 use crate::recipes::{Operand, Recipe, Recipes};
 use crate::signal_blocks::SignalBlocks;
-use crate::synth::{CellNetwork, reduce, widen};
-use crate::{BlockId, MapError, NetId, Netlist, Node};
+use crate::synth::{CellNetwork, reduce_between_registers, widen};
+use crate::{BlockId, MapError, NetId, Netlist, Node, RegisterNode};
 use nbc_base::budget::Limit;
 use nbc_base::model::Function;
 
@@ -20,13 +21,15 @@ pub fn map(netlist: &Netlist, library: &CellLibrary) -> Result<Netlist, MapError
     map_with(netlist, library, &MapOptions::default())
 }
 
-/// Memory elements and their guards stay, split into cells function by function; the logic around is synthesized.
+/// The netlist with its logic as cells of the library. Registers stay registers ([`crate::lower`] makes them cells);
+/// memory elements that are written as cells stay with their guards, split into cells function by function.
 pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: &MapOptions) -> Result<Netlist, MapError> {
-    let cells = netlist.cells().count();
+    let cells = netlist.size();
     if Limit::Cells.permit(cells as u64).is_err() {
         return Err(MapError::TooLarge { cells, most: Limit::Cells.most() });
     }
     let mut source = netlist.clone();
+    gate_data(&mut source);
     passes::run(&mut source)?;
     match options.objective {
         MappingObjective::Area | MappingObjective::Delay => {}
@@ -63,6 +66,7 @@ struct Mapper<'a> {
     recipes: Recipes,
     mapped: Netlist,
     kept: Vec<NetId>,
+    registers: Vec<NetId>,
     /// The nets of the mapped netlist that correspond to the inputs of the logic.
     net: BTreeMap<NetId, NetId>,
 }
@@ -74,6 +78,7 @@ impl<'a> Mapper<'a> {
             source,
             library,
             kept: guarded.cells().collect(),
+            registers: source.registers().map(|(id, _)| id).collect(),
             guarded,
             recipes: Recipes::of(library),
             mapped: Netlist::with_blocks_of(source),
@@ -87,7 +92,7 @@ impl<'a> Mapper<'a> {
             self.net.insert(id, net);
         }
         let memory = self.guarded.memory();
-        let names = core_names(self.source, memory);
+        let names = state_names(self.source, memory);
         for &id in &self.kept {
             // A guard has a wire without a name, which leaves no trace; a core cell keeps its name and start value.
             let name = names.get(&id).cloned().unwrap_or_default();
@@ -95,10 +100,21 @@ impl<'a> Mapper<'a> {
             let wire = self.mapped.add_wire(name, start, None);
             self.net.insert(id, wire);
         }
-        let view = View::of(self.source, &self.kept).expect("every loop passes through cells that are kept");
+        for &id in &self.registers {
+            let register = self.source.register(id).expect("these are registers").clone();
+            let made = self.mapped.add_loose_register(RegisterNode { name: names.get(&id).cloned(), ..register });
+            self.mapped.put_into(made, self.source.block(id));
+            self.net.insert(id, made);
+        }
+        let recipe = |function: &Function| self.recipes.get(*function).is_none();
+        if let Some(function) = needed(self.source).find(recipe) {
+            return Err(self.missing(function));
+        }
+        let cuts: Vec<NetId> = self.states().collect();
+        let view = View::of(self.source, &cuts).expect("every loop passes through cells that are kept");
         let (network, sinks) = self.logic(&view);
-        let reduced =
-            reduce(&network, &self.stages(), self.library, options).map_err(|missing| self.missing(missing))?;
+        let reduced = reduce_between_registers(&network, &self.stages(), self.library, options);
+        let reduced = reduced.map_err(|missing| self.missing(missing))?;
         let cells = widen(&network, &reduced, &self.stages(), self.library, options);
         let ports: Vec<usize> = (0..network.inputs).collect();
         let blocks = SignalBlocks::of(self.source, &view).of_cells(&network, &cells, &ports);
@@ -109,15 +125,24 @@ impl<'a> Mapper<'a> {
             let net = self.split(id, &pins)?;
             self.mapped.drive(self.net[&id], 0, net);
         }
+        for &id in &self.registers {
+            for (pin, driver) in (0..).zip(self.source.pins(id)) {
+                self.mapped.connect(self.net[&id], pin, shown[&driver]);
+            }
+        }
         for &id in self.source.outputs() {
             self.mapped.add_output(self.source.net_name(id), shown[&self.source.pins(id)[0]]);
         }
         Ok(self.mapped)
     }
 
+    fn states(&self) -> impl Iterator<Item = NetId> + '_ {
+        self.kept.iter().chain(&self.registers).copied()
+    }
+
     fn logic(&self, view: &View) -> (Network, Vec<NetId>) {
-        let sinks = self.source.outputs().iter().chain(&self.kept);
-        let mut sinks: Vec<_> = sinks.flat_map(|&id| self.source.pins(id)).collect();
+        let sinks = self.source.outputs().iter().copied().chain(self.states());
+        let mut sinks: Vec<_> = sinks.flat_map(|id| self.source.pins(id)).collect();
         sinks.sort_unstable();
         sinks.dedup();
         let mut network = view.network.clone();
@@ -125,16 +150,18 @@ impl<'a> Mapper<'a> {
         (network, sinks)
     }
 
-    /// For each input of the logic, the number of kept cells before it: no cell may start to depend on a later one.
+    /// For each input of the logic, the number of registers and kept cells before it: no cell may start to depend on a
+    /// later one.
     fn stages(&self) -> Vec<u32> {
-        let stages = most_before(self.source, |id| self.guarded.role(id).is_some());
-        self.source.inputs().iter().chain(&self.kept).map(|id| stages[id]).collect()
+        let counts = |id| self.guarded.role(id).is_some() || self.source.register(id).is_some();
+        let stages = most_before(self.source, counts);
+        self.source.inputs().iter().copied().chain(self.states()).map(|id| stages[&id]).collect()
     }
 
     fn copy(&mut self, network: &CellNetwork, blocks: &[BlockId]) -> Vec<NetId> {
         let mut constants = [None; 2];
         let mut nets: Vec<Option<NetId>> = vec![None, None];
-        nets.extend(self.source.inputs().iter().chain(&self.kept).map(|id| Some(self.net[id])));
+        nets.extend(self.source.inputs().iter().copied().chain(self.states()).map(|id| Some(self.net[&id])));
         let mapped = &mut self.mapped;
         let mut net = |mapped: &mut Netlist, nets: &[Option<NetId>], signal: Signal| {
             nets[signal as usize]
@@ -184,7 +211,9 @@ impl<'a> Mapper<'a> {
 
 /// A cell without a name that drives an output takes the output's name.
 pub(crate) fn name_outputs(netlist: &mut Netlist) {
-    let mut taken: std::collections::BTreeSet<_> = netlist.cells().filter_map(|(_, cell)| cell.name.clone()).collect();
+    let names = netlist.cells().map(|(_, cell)| &cell.name);
+    let names = names.chain(netlist.registers().map(|(_, register)| &register.name));
+    let mut taken: std::collections::BTreeSet<String> = names.filter_map(Clone::clone).collect();
     for output in netlist.outputs().to_vec() {
         let driver = netlist.pins(output)[0];
         let name = netlist.net_name(output);

@@ -72,9 +72,9 @@ mod tests {
 
     use super::*;
     use crate::cells::{CellKind, CellLibrary};
-    use crate::example::latch;
+    use crate::example::{flip_flop, latch};
     use crate::map::map;
-    use crate::{Delayed, Delays, registers};
+    use crate::{Delayed, Delays, RegisterForm, lower};
     use nbc_base::model::Function;
 
     const CLOCK: u32 = 3;
@@ -118,9 +118,10 @@ mod tests {
     fn a_flip_flop_has_two_memory_elements() {
         let mut netlist = Netlist::new("flip_flop");
         let [d, clk] = ["d", "clk"].map(|name| netlist.add_input(name));
-        let q = registers::flip_flop(&mut netlist, "q", d, clk, false);
+        let q = flip_flop(&mut netlist, "q", d, clk, false);
         netlist.add_output("q", q);
         let mapped = map(&netlist, &library()).unwrap();
+        let mapped = lower(&mapped, &library(), RegisterForm::Nands).unwrap();
         let sizes: Vec<usize> = memory(&mapped).iter().map(|memory| memory.nets.len()).collect();
         assert_eq!(sizes, [2, 2]);
     }

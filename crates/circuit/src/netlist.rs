@@ -9,6 +9,7 @@ use petgraph::stable_graph::{NodeIndex, StableDiGraph};
 use petgraph::visit::EdgeRef;
 
 use crate::blocks::{BlockId, Blocks};
+use crate::register::RegisterNode;
 use nbc_base::model::Function;
 use nbc_base::source::Span;
 
@@ -39,6 +40,7 @@ pub enum Node {
         span: Option<Span>,
     },
     Cell(Cell),
+    Register(RegisterNode),
 }
 
 pub(crate) type NetGraph = StableDiGraph<Node, u8, u32>;
@@ -125,6 +127,17 @@ impl Netlist {
         self.add(Node::Cell(cell))
     }
 
+    pub fn add_register(&mut self, register: RegisterNode, pins: &[NetId]) -> NetId {
+        assert_eq!(pins.len(), register.pins(), "a register has data, a clock, and what forces it");
+        let id = self.add_loose_register(register);
+        (0..).zip(pins).for_each(|(pin, &net)| self.connect(id, pin, net));
+        id
+    }
+
+    pub fn add_loose_register(&mut self, register: RegisterNode) -> NetId {
+        self.add(Node::Register(register))
+    }
+
     pub fn connect(&mut self, listener: NetId, pin: u8, net: NetId) {
         self.graph.add_edge(net, listener, pin);
     }
@@ -163,7 +176,7 @@ impl Netlist {
     pub fn rename(&mut self, id: NetId, new: &str) {
         match self.node_mut(id) {
             Node::Input(name) | Node::Output(name) | Node::Wire { name, .. } => *name = new.to_owned(),
-            Node::Cell(cell) => cell.name = Some(new.to_owned()),
+            Node::Cell(Cell { name, .. }) | Node::Register(RegisterNode { name, .. }) => *name = Some(new.to_owned()),
             Node::Constant(_) => {}
         }
     }
@@ -184,6 +197,25 @@ impl Netlist {
             Node::Cell(cell) => Some(cell),
             _ => None,
         }
+    }
+
+    pub fn register(&self, id: NetId) -> Option<&RegisterNode> {
+        match self.node(id) {
+            Node::Register(register) => Some(register),
+            _ => None,
+        }
+    }
+
+    /// The registers, in order of numbers.
+    pub fn registers(&self) -> impl Iterator<Item = (NetId, &RegisterNode)> {
+        self.ids().filter_map(|id| Some((id, self.register(id)?)))
+    }
+
+    /// Makes a register another node, which keeps its listeners and has no pins.
+    pub(crate) fn replace_register(&mut self, id: NetId, node: Node) {
+        let pins: Vec<_> = self.graph.edges_directed(id, Incoming).map(|edge| edge.id()).collect();
+        pins.into_iter().for_each(|pin| _ = self.graph.remove_edge(pin));
+        self.graph[id] = node;
     }
 
     /// The drivers of a node's pins, pin 0 first.
@@ -225,6 +257,11 @@ impl Netlist {
         self.ids().filter_map(|id| Some((id, self.cell(id)?)))
     }
 
+    /// The cells, as many as there are once registers are cells, too.
+    pub fn size(&self) -> usize {
+        self.cells().count() + RegisterNode::CELLS * self.registers().count()
+    }
+
     pub fn by_function(&self) -> BTreeMap<&'static str, usize> {
         let mut counts = BTreeMap::new();
         for (_, cell) in self.cells() {
@@ -242,8 +279,10 @@ impl Netlist {
         match self.node(id) {
             Node::Input(name) | Node::Output(name) | Node::Wire { name, .. } => name.clone(),
             Node::Constant(value) => u8::from(*value).to_string(),
-            Node::Cell(Cell { name: Some(name), .. }) => name.clone(),
-            Node::Cell(_) => format!("n{}", id.index()),
+            Node::Cell(Cell { name: Some(name), .. }) | Node::Register(RegisterNode { name: Some(name), .. }) => {
+                name.clone()
+            }
+            Node::Cell(_) | Node::Register(_) => format!("n{}", id.index()),
         }
     }
 
@@ -252,7 +291,7 @@ impl Netlist {
     }
 
     pub fn is_named(&self, id: NetId) -> bool {
-        !matches!(self.node(id), Node::Cell(Cell { name: None, .. }))
+        !matches!(self.node(id), Node::Cell(Cell { name: None, .. }) | Node::Register(RegisterNode { name: None, .. }))
     }
 
     /// What readers call a net: its name, else what drives it, such as `nand(d, not(e))`.
@@ -293,6 +332,7 @@ impl fmt::Display for Netlist {
                 }
                 Node::Wire { start, .. } => ("wire".to_owned(), *start),
                 Node::Cell(cell) => (cell.function.to_string(), cell.start),
+                Node::Register(register) => (register.kind.word().to_owned(), register.start),
             };
             let start = start.map_or(String::new(), |start| format!(" init {}", u8::from(start)));
             writeln!(f, "    {} = {operator}({}){start}", self.net_name(id), names(&self.pins(id)))?;

@@ -206,14 +206,15 @@ pub(crate) fn counting_word(i: usize, block: usize) -> u64 {
 /// The combinational view of a netlist whose loops are cut open at some nets.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// The inputs are the ports and then the cuts; the outputs are the ports and then the drivers of the cuts.
+    /// The inputs are the ports and then the cuts; the outputs are the ports and then the drivers of the cuts, of a
+    /// register those of all its pins.
     pub network: Network,
     /// The signal of each net as its listeners see it: a cut net is an input.
     pub signal: BTreeMap<NetId, Signal>,
 }
 
 impl View {
-    /// Cuts a netlist open at `cuts`; fails with a net that still lies on a loop.
+    /// Cuts a netlist open at `cuts`, all registers among them; fails with a net that still lies on a loop.
     pub fn of(netlist: &Netlist, cuts: &[NetId]) -> Result<Self, NetId> {
         let mut network = Network::new(netlist.inputs().len() + cuts.len());
         let mut signal = BTreeMap::new();
@@ -221,6 +222,9 @@ impl View {
             signal.insert(id, network.input(i));
         }
         let cut: BTreeSet<_> = cuts.iter().copied().collect();
+        if let Some((register, _)) = netlist.registers().find(|(id, _)| !cut.contains(id)) {
+            return Err(register);
+        }
         let mut next = BTreeMap::new();
         for id in order(netlist, &cut)? {
             if let Some(made) = add(netlist, &mut network, &signal, id) {
@@ -231,8 +235,13 @@ impl View {
                 }
             }
         }
-        let outputs = netlist.outputs().iter().map(|&id| signal[&netlist.pins(id)[0]]);
-        network.outputs = outputs.chain(cuts.iter().map(|cut| next[cut])).collect();
+        let seen = |id: &NetId| signal[id];
+        let outputs = netlist.outputs().iter().map(|&id| seen(&netlist.pins(id)[0]));
+        let driver = |cut: &NetId| match netlist.register(*cut) {
+            Some(_) => netlist.pins(*cut).iter().map(seen).collect(),
+            None => vec![next[cut]],
+        };
+        network.outputs = outputs.chain(cuts.iter().flat_map(driver)).collect();
         Ok(Self { network, signal })
     }
 }
@@ -245,7 +254,7 @@ fn add(netlist: &Netlist, network: &mut Network, signal: &BTreeMap<NetId, Signal
             Some(network.add_function(cell.function, &pins))
         }
         Node::Wire { .. } => Some(signal[&netlist.pins(id)[0]]),
-        Node::Input(_) | Node::Output(_) => None,
+        Node::Input(_) | Node::Output(_) | Node::Register(_) => None,
     }
 }
 

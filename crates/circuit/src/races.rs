@@ -119,6 +119,7 @@ fn answer(netlist: &Netlist, values: &Values, id: NetId) -> Ternary {
         Node::Constant(value) => Ternary::known(0u64.wrapping_sub(u64::from(*value))),
         Node::Input(_) => values[&id],
         Node::Output(_) | Node::Wire { .. } => pins[0],
+        Node::Register(_) => unreachable!("the registers of robots are cells"),
     }
 }
 
@@ -135,10 +136,12 @@ fn of_cell(function: Function, inputs: &[Ternary]) -> Ternary {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::as_nands;
     use crate::cells::CellLibrary;
+    use crate::example::{self, register};
     use crate::map::map;
     use crate::passes::{dissolve_wires, sweep};
-    use crate::{example, registers};
+    use crate::register::RegisterKind;
 
     fn with_feedback(build: impl FnOnce(&mut Netlist, [NetId; 3]) -> NetId) -> Netlist {
         let mut netlist = Netlist::new("memory");
@@ -147,7 +150,7 @@ mod tests {
         let made = build(&mut netlist, [d, e, q]);
         netlist.drive(q, 0, made);
         netlist.add_output("q", q);
-        dissolve_wires(&mut netlist).unwrap();
+        let mut netlist = as_nands(&netlist);
         sweep(&mut netlist);
         netlist
     }
@@ -165,7 +168,7 @@ mod tests {
         dissolve_wires(&mut paper).unwrap();
         check(&paper, &[]);
         check(&map(&paper, &CellLibrary::uniform([Function::NAND])).unwrap(), &[]);
-        check(&with_feedback(|netlist, [d, e, _]| registers::latch(netlist, "q", d, e, false)), &[]);
+        check(&with_feedback(|netlist, [d, e, _]| register(netlist, RegisterKind::High, "q", [d, e], false)), &[]);
         let any_cells = with_feedback(|netlist, [d, e, q]| {
             let set = netlist.add_gate(Function::AND, &[d, e]);
             let reset = netlist.add_gate(Function::AND.with_input_inverted(0), &[d, e]);
@@ -191,7 +194,7 @@ mod tests {
     #[test]
     fn logic_without_memory_has_no_race_and_wide_memory_is_skipped() {
         check(&example::full_adder(), &[]);
-        let mut wide = with_feedback(|netlist, [d, e, _]| registers::latch(netlist, "q", d, e, false));
+        let mut wide = with_feedback(|netlist, [d, e, _]| register(netlist, RegisterKind::High, "q", [d, e], false));
         for i in 0..MOST_BITS {
             wide.add_input(format!("i{i}"));
         }

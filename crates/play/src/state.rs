@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::message::{ListingRow, ShownClock, ShownListing, ShownRegister, WaveBit, WaveRegister};
 use nbc_base::model::{Circuit, Column, ExpressionKind, TablePattern};
 use nbc_circuit::waves::WaveMachine;
-use nbc_circuit::{BlockId, NetId, Netlist};
+use nbc_circuit::{BlockId, Cell, NetId, Netlist, Node, RegisterNode};
 use nbc_session::report::SwarmTiming;
 use nbc_session::{Checked, Mapping};
 use nbc_swarm::StimulusSource;
@@ -32,7 +32,8 @@ pub(super) fn registers(netlist: &Netlist) -> Vec<ShownRegister> {
 /// order. Registers with a bit on an input that no robot reads are missing.
 pub(super) fn wave_registers(mapping: &Mapping, machine: &WaveMachine) -> Vec<WaveRegister> {
     let source = &mapping.source;
-    let shows: BTreeMap<String, NetId> = source.cells().map(|(id, _)| (source.net_name(id), id)).collect();
+    let states = source.cells().map(|(id, _)| id).chain(source.registers().map(|(id, _)| id));
+    let shows: BTreeMap<String, NetId> = states.map(|id| (source.net_name(id), id)).collect();
     let robots: BTreeMap<NetId, usize> = machine.netlist.cells().enumerate().map(|(at, (id, _))| (id, at)).collect();
     let bits = mapping.proof.cuts.iter().zip(&machine.state).filter_map(|(name, bit)| {
         let (source, phase) = match bit.net {
@@ -79,7 +80,10 @@ fn named<T>(netlist: &Netlist, bits: impl Iterator<Item = (NetId, T)>) -> Vec<(S
 
 /// The bus of a cell's net, which may be inside calls, and its place in it.
 fn place(netlist: &Netlist, id: NetId) -> Option<(&str, usize)> {
-    let name = netlist.cell(id)?.name.as_deref()?;
+    let (Node::Cell(Cell { name, .. }) | Node::Register(RegisterNode { name, .. })) = netlist.node(id) else {
+        return None;
+    };
+    let name = name.as_deref()?;
     let own = name.rsplit('/').next().unwrap_or(name);
     match own.strip_suffix(']').and_then(|bit| bit.split_once('[')) {
         Some((bus, place)) => Some((bus, place.parse().ok()?)),

@@ -251,7 +251,7 @@ impl Tree {
 }
 
 fn is_shown(netlist: &Netlist, id: NetId) -> bool {
-    matches!(netlist.node(id), Node::Cell(_) | Node::Wire { .. })
+    matches!(netlist.node(id), Node::Cell(_) | Node::Register(_) | Node::Wire { .. })
 }
 
 fn path_of(parts: &[CircuitPart], part: usize) -> Vec<usize> {

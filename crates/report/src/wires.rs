@@ -48,7 +48,7 @@ impl Sizes {
         match slot {
             Slot::Pass(_) => (CELL.0, PASS),
             Slot::Node(id) => match netlist.node(id) {
-                Node::Cell(_) | Node::Wire { .. } => CELL,
+                Node::Cell(_) | Node::Register(_) | Node::Wire { .. } => CELL,
                 Node::Input(_) | Node::Output(_) | Node::Constant(_) => self.port,
             },
         }

@@ -10,9 +10,8 @@ use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic, Severity};
 use nbc_base::model::{CircuitTest, Instance, Library, Origin, Program, RegisterStyle, Stimulation, Swarm, TestRow};
 use nbc_base::source::Span;
-use nbc_circuit::timing::Held;
 use nbc_circuit::waves::ClockStep;
-use nbc_circuit::{Effort, Loops, MapOptions, elaborate, is_same_instance};
+use nbc_circuit::{Effort, Loops, MapOptions, RegisterForm, elaborate, has_multiplexers, is_same_instance};
 use nbc_lang::check::DEFAULT_LIBRARY;
 
 /// Larger circuits are not made into wave machines during a check.
@@ -101,7 +100,8 @@ impl Look<'_> {
         if !cells.is_complete() {
             let options = MapOptions { effort: Effort::Fast, ..self.options() };
             let source = elaborate(self.program, circuit);
-            let made = source.and_then(|source| map_onto(source, &cells, &options, place, Limit::SwarmGates));
+            let made = source
+                .and_then(|source| map_onto(source, &cells, &options, RegisterForm::Nands, place, Limit::SwarmGates));
             self.note(made.map(drop));
         }
     }
@@ -112,7 +112,7 @@ impl Look<'_> {
             RegisterStyle::MasterSlave => self.circuit(&swarm.circuit, &swarm.library, swarm.span),
             RegisterStyle::Mux => {
                 let Some(robots) = self.library(&swarm.library) else { return };
-                if Held::is_possible(&nbc_swarm::cells(&robots)) {
+                if has_multiplexers(&nbc_swarm::cells(&robots)) {
                     self.circuit(&swarm.circuit, &swarm.library, swarm.span);
                 } else {
                     self.note(Err(vec![for_circuit(wording::no_multiplexer(), swarm.span)]));
@@ -128,7 +128,7 @@ impl Look<'_> {
             return;
         }
         let Ok(netlist) = elaborate(self.program, &swarm.circuit) else { return };
-        if Loops::of(&netlist).cores().is_empty() {
+        if Loops::of(&netlist).cores().is_empty() && netlist.registers().next().is_none() {
             let circuit = swarm.circuit.to_string();
             self.note(Err(vec![wording::no_registers(&swarm.name, &circuit, swarm.span)]));
         }
@@ -144,7 +144,7 @@ impl Look<'_> {
             }
         };
         // Only a step that may be too short, or a library that may lack a robot, is worth the work.
-        if netlist.cells().count() > SMALL {
+        if netlist.size() > SMALL {
             self.circuit(&swarm.circuit, &swarm.library, swarm.span);
         } else if (swarm.waves.step.is_some() || !self.is_whole(&swarm.library))
             && let Some(robots) = self.library(&swarm.library)

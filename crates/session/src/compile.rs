@@ -11,7 +11,10 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Instance, NamedWorld, Program, RegisterStyle};
 use nbc_base::source::Span;
 use nbc_circuit::passes::sweep;
-use nbc_circuit::{CellLibrary, MapOptions, Netlist, Timing, elaborate_net, map_with, prove};
+use nbc_circuit::{
+    CellLibrary, MapOptions, Netlist, RegisterForm, Timing, elaborate_net, has_multiplexers, kept,
+    latches_as_registers, lower, map_with, prove,
+};
 use nbc_swarm::{Assembly, WeakRobot};
 
 /// A circuit compiled to a swarm.
@@ -43,15 +46,24 @@ impl Compiled {
 }
 
 /// Panics if the mapped netlist is not proved equal to its source, which is a fault of the compiler.
-pub(super) fn synthesize(source: Netlist, cells: &CellLibrary, options: &MapOptions) -> Result<Mapping, Diagnostic> {
-    let netlist = map_with(&source, cells, options).map_err(|error| wording::unmapped(&error))?;
-    match prove(&source, &netlist) {
-        Ok(proof) => {
-            let cells = cells.clone();
-            Ok(Mapping { source, netlist, cells, proof, kept: Vec::new(), unproved_registers: false, waves: None })
-        }
-        Err(error) => panic!("the compiled circuit `{}` differs from its source: {error}", source.name),
-    }
+pub(super) fn synthesize(
+    source: Netlist,
+    cells: &CellLibrary,
+    options: &MapOptions,
+    form: RegisterForm,
+) -> Result<Mapping, Diagnostic> {
+    // Latches that were written as cells become multiplexers, too.
+    let raised = match form {
+        RegisterForm::Nands => None,
+        RegisterForm::Multiplexers => latches_as_registers(&source).ok(),
+    };
+    let read = raised.as_ref().unwrap_or(&source);
+    let mapped = map_with(read, cells, options).map_err(|error| wording::unmapped(&error))?;
+    let proof = prove(read, &mapped)
+        .unwrap_or_else(|error| panic!("the compiled circuit `{}` differs from its source: {error}", source.name));
+    let netlist = lower(&mapped, cells, form).map_err(|error| wording::unmapped(&error))?;
+    let kept = if form == RegisterForm::Multiplexers { kept(&mapped) } else { Vec::new() };
+    Ok(Mapping { source, netlist, cells: cells.clone(), proof, kept, waves: None })
 }
 
 /// `gates` limits the size of the source.
@@ -59,15 +71,16 @@ pub(super) fn map_onto(
     source: Netlist,
     cells: &CellLibrary,
     options: &MapOptions,
+    form: RegisterForm,
     place: Span,
     gates: Limit,
 ) -> Result<Mapping, Vec<Diagnostic>> {
     permit(&source, gates, place)?;
-    synthesize(source, cells, options).map_err(|fault| vec![for_circuit(fault, place)])
+    synthesize(source, cells, options, form).map_err(|fault| vec![for_circuit(fault, place)])
 }
 
 fn permit(netlist: &Netlist, limit: Limit, place: Span) -> Result<(), Vec<Diagnostic>> {
-    limit.permit(netlist.cells().count() as u64).map_err(|over| vec![over.at(place)])
+    limit.permit(netlist.size() as u64).map_err(|over| vec![over.at(place)])
 }
 
 pub(super) fn map(
@@ -77,10 +90,12 @@ pub(super) fn map(
     place: Span,
     gates: Limit,
 ) -> Result<Mapping, Vec<Diagnostic>> {
-    let map = |source| map_onto(source, &nbc_swarm::cells(&plan.library), options, place, gates);
+    let cells = nbc_swarm::cells(&plan.library);
+    let map = |source, form| map_onto(source, &cells, options, form, place, gates);
     match plan.registers {
-        RegisterStyle::MasterSlave => map(source),
-        RegisterStyle::Mux => map(source)?.held().ok_or_else(|| vec![for_circuit(wording::no_multiplexer(), place)]),
+        RegisterStyle::MasterSlave => map(source, RegisterForm::Nands),
+        RegisterStyle::Mux if has_multiplexers(&cells) => map(source, RegisterForm::Multiplexers),
+        RegisterStyle::Mux => Err(vec![for_circuit(wording::no_multiplexer(), place)]),
         RegisterStyle::Waves => {
             if plan.world.world.lateness() > 0 {
                 return Err(vec![for_circuit(wording::waves_need_a_beat(&plan.world.name), place)]);
@@ -99,7 +114,7 @@ pub(super) fn map_net(
     options: MapOptions,
 ) -> Result<Mapping, Vec<Diagnostic>> {
     let source = elaborate_net(program, &plan.circuit, net)?;
-    let mapping = synthesize(source, &nbc_swarm::cells(&plan.library), &options);
+    let mapping = synthesize(source, &nbc_swarm::cells(&plan.library), &options, RegisterForm::Nands);
     let mut mapping = mapping.map_err(|fault| vec![for_circuit(fault, net)])?;
     // The proof was of all that was elaborated. What is shown is the part of the net.
     sweep(&mut mapping.source);

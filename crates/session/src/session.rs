@@ -21,7 +21,7 @@ use nbc_base::diag::Diagnostics;
 use nbc_base::model::{CircuitTest, Claim, Evolution, Instance, Library, Simulation};
 use nbc_base::source::{SourceWorld, Sources, Span};
 use nbc_circuit::properties::SearchBudget;
-use nbc_circuit::{CancelFlag, CellLibrary, elaborate};
+use nbc_circuit::{CancelFlag, CellLibrary, RegisterForm, elaborate};
 use nbc_sim::Simulator;
 use nbc_swarm::{Level, LiveSwarm, Room};
 
@@ -155,7 +155,7 @@ impl Session {
     ) -> Result<Mapping, Diagnostics> {
         let source = elaborate(&checked.program, circuit).map_err(|faults| checked.fail(faults))?;
         let place = checked.place(circuit);
-        let mapping = compile::map_onto(source, cells, &options.mapping(), place, Limit::Cells);
+        let mapping = compile::map_onto(source, cells, &options.mapping(), RegisterForm::Nands, place, Limit::Cells);
         mapping.map_err(|faults| checked.fail(faults))
     }
 

@@ -6,7 +6,7 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Function, Library};
 use nbc_circuit::correspondence::{self, Removed};
 use nbc_circuit::formats::Design;
-use nbc_circuit::{CellKind, CellLibrary, MapOptions, MappingObjective, Netlist, prove_expanded, registers};
+use nbc_circuit::{CellKind, CellLibrary, MapOptions, MappingObjective, Netlist, RegisterForm};
 
 /// How a design is mapped.
 #[derive(Clone, Debug)]
@@ -32,8 +32,6 @@ pub struct Synthesis {
     /// The cells and the remaining registers.
     pub result: Design,
     pub removed: Removed,
-    /// No proof was found that the cells of registers store the same ([`prove_expanded`]).
-    pub unproved_registers: bool,
     /// Cells that a robot for each of the functions would save; negative if it needs more.
     pub what_if: Vec<(Function, i64)>,
 }
@@ -44,18 +42,18 @@ impl Synthesis {
         let (design, removed) = correspondence::reduce(read);
         let whole = Made::of(design, options)?;
         // The result with its registers is proved to be what was read, too. For registers made of cells, the design
-        // without needless registers was proved, then that its registers are these cells, and then its cells.
+        // without needless registers was proved, and then the logic between its registers.
         if !options.expand
             && let Err(error) = correspondence::prove(read, &whole.result, &removed)
         {
             panic!("the circuit `{}` differs from its file: {error}", read.logic.name);
         }
-        let Made { design, source, result, unproved_registers } = whole;
-        let mut synthesis = Self { design, result, removed, unproved_registers, what_if: Vec::new() };
+        let Made { design, source, result } = whole;
+        let mut synthesis = Self { design, result, removed, what_if: Vec::new() };
         for &function in &options.what_if {
             let mut more = options.cells.clone();
             more.insert(function, CellKind::uniform(1, 1.0));
-            let found = synthesize(source.clone(), &more, &options.map)?.netlist.cells().count();
+            let found = synthesize(source.clone(), &more, &options.map, RegisterForm::Nands)?.netlist.cells().count();
             synthesis.what_if.push((function, synthesis.cells() as i64 - found as i64));
         }
         Ok(synthesis)
@@ -94,20 +92,14 @@ struct Made {
     design: Design,
     source: Netlist,
     result: Design,
-    unproved_registers: bool,
 }
 
 impl Made {
     fn of(design: Design, options: &SynthesisOptions) -> Result<Self, Diagnostic> {
-        let source = if options.expand { registers::expand(&design) } else { design.logic.clone() };
-        let proof = if options.expand { prove_expanded(&design, &source) } else { None };
-        if let Some(Err(error)) = &proof {
-            panic!("the registers of `{}` as cells differ from those of its file: {error}", design.logic.name);
-        }
-        let unproved_registers = options.expand && proof.is_none() && !design.registers.is_empty();
-        let logic = synthesize(source.clone(), &options.cells, &options.map)?.netlist;
+        let source = if options.expand { design.netlist() } else { design.logic.clone() };
+        let logic = synthesize(source.clone(), &options.cells, &options.map, RegisterForm::Nands)?.netlist;
         let registers = if options.expand { Vec::new() } else { design.registers.clone() };
         let ascending = design.ascending.clone();
-        Ok(Self { design, source, result: Design { logic, registers, ascending }, unproved_registers })
+        Ok(Self { design, source, result: Design { logic, registers, ascending } })
     }
 }

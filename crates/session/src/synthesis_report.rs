@@ -55,9 +55,6 @@ struct ProofReport {
     /// Random steps in which both readings are equal, if more is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     steps: Option<usize>,
-    /// Whether the cells of registers are not proved to store what the registers store.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    unproved_registers: bool,
     #[serde(skip)]
     words: String,
 }
@@ -65,7 +62,7 @@ struct ProofReport {
 impl SynthesisReport {
     /// `origin` is what the proof begins with.
     pub fn of(synthesis: &Synthesis, origin: ProofOrigin, seconds: f64) -> Self {
-        let Synthesis { design, result, removed, unproved_registers, what_if } = synthesis;
+        let Synthesis { design, result, removed, what_if } = synthesis;
         Self {
             cells: synthesis.cells(),
             by_function: result.logic.by_function(),
@@ -76,7 +73,7 @@ impl SynthesisReport {
             removed: removed.clone(),
             // A circuit whose logic is not proved is never reported.
             proved: true,
-            proof: ProofReport::of(origin, *unproved_registers),
+            proof: ProofReport::of(origin),
             seconds,
             what_if: what_if.iter().map(|&(function, saved)| (function.name().to_owned(), saved)).collect(),
         }
@@ -104,11 +101,10 @@ impl SynthesisReport {
 }
 
 impl ProofReport {
-    fn of(origin: ProofOrigin, unproved_registers: bool) -> Self {
-        let left_out = if unproved_registers { " but for the cells of its registers" } else { "" };
-        let words = format!("{origin}{left_out}");
+    fn of(origin: ProofOrigin) -> Self {
+        let words = origin.to_string();
         let ProofOrigin::Slang { version, second } = origin else {
-            return Self { from: "file", version: None, second: None, steps: None, unproved_registers, words };
+            return Self { from: "file", version: None, second: None, steps: None, words };
         };
         let (second, steps) = match second {
             SecondReading::Alike => ("alike", None),
@@ -117,7 +113,7 @@ impl ProofReport {
             SecondReading::NoSteps => ("not compared", None),
             SecondReading::None => ("unread", None),
         };
-        Self { from: "slang", version: Some(version), second: Some(second), steps, unproved_registers, words }
+        Self { from: "slang", version: Some(version), second: Some(second), steps, words }
     }
 }
 

@@ -36,7 +36,7 @@ pub(super) fn map_waves(
     let proof = Proof { method, cuts };
     let netlist = machine.netlist.clone();
     let waves = Some(machine);
-    Ok(Mapping { source, netlist, cells, proof, kept: Vec::new(), unproved_registers: false, waves })
+    Ok(Mapping { source, netlist, cells, proof, kept: Vec::new(), waves })
 }
 
 /// The first row is before the first edge of the clock, each other one edge; without state each row is a step.

@@ -189,6 +189,7 @@ fn number_signals(netlist: &Netlist) -> BTreeMap<NetId, StimulusSource> {
             }
             Node::Input(_) | Node::Output(_) => {}
             Node::Wire { name, .. } => panic!("wire `{name}` should have been dissolved before assembly"),
+            Node::Register(_) => panic!("the registers of `{}` should be cells before assembly", netlist.name),
         }
     }
     signals

@@ -26,6 +26,8 @@ pub struct Program {
     pub circuits: Vec<Circuit>,
     /// The circuit `select` of the prelude: its second operand selects a bit of its first.
     pub selector: Option<CircuitId>,
+    /// The circuit `stored` of the prelude, of which each bit is a register.
+    pub stored: Option<CircuitId>,
     pub enumerations: Vec<Enumeration>,
     pub files: Vec<NamedFile>,
     /// The environments among the circuits, which no swarm is made of.

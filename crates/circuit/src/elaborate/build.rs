@@ -229,7 +229,11 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         if self.failed {
             return None;
         }
-        for at in 0..self.items.len() {
+        let is_stored = self.builder.program.stored == Some(key.circuit);
+        if is_stored {
+            self.stored(&key.arguments)?;
+        }
+        for at in 0..if is_stored { 0 } else { self.items.len() } {
             self.item(at as u32);
             if self.builder.over.is_some() {
                 return None;

@@ -248,7 +248,7 @@ impl ModuleBuilder<'_, '_> {
     }
 
     /// Any other signal if there is no room: the module has failed.
-    fn signal(&mut self, signal: ModuleSignal) -> Bit {
+    pub(super) fn signal(&mut self, signal: ModuleSignal) -> Bit {
         if self.take(Limit::Nets, 1).is_none() {
             return 0;
         }

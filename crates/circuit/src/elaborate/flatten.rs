@@ -4,7 +4,8 @@ use crate::elaborate::build::Builder;
 use crate::elaborate::module::{ModuleId, ModuleSignal};
 use crate::elaborate::wording;
 use crate::index::ListIndex;
-use crate::{BlockId, Blocks, Cell, NetId, Netlist};
+use crate::register::Forcing;
+use crate::{BlockId, Blocks, Cell, NetId, Netlist, Node, RegisterNode};
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::Span;
 
@@ -44,7 +45,8 @@ fn places(builder: &Builder<'_>, top: ModuleId, blocks: &mut Blocks) -> Vec<Plac
             let inputs = site.inputs.iter().map(|bit| base + bit).collect();
             let prefix = format!("{}{}/", places[at].prefix, site.name);
             let circuit = &builder.circuit(builder.module(site.module).circuit).name;
-            let block = blocks.add(&site.name, circuit, outer);
+            let is_stored = builder.program.stored == Some(builder.module(site.module).circuit);
+            let block = if is_stored { outer } else { blocks.add(&site.name, circuit, outer) };
             places.push(Place { module: site.module, base: next, inputs, prefix, block });
             next += builder.module(site.module).signals.len() as u32;
         }
@@ -62,7 +64,7 @@ fn aliases(builder: &Builder<'_>, places: &[Place]) -> Vec<Option<ListIndex>> {
         same.extend(module.signals.iter().map(|signal| match *signal {
             ModuleSignal::Input(_) if at == 0 => None,
             ModuleSignal::Input(bit) => Some(ListIndex::new(place.inputs[bit as usize])),
-            ModuleSignal::Constant(_) | ModuleSignal::Gate { .. } => None,
+            ModuleSignal::Constant(_) | ModuleSignal::Gate { .. } | ModuleSignal::Register { .. } => None,
             ModuleSignal::Net { driver, .. } => {
                 let driver = driver.expect("every net is driven");
                 Some(ListIndex::new(place.base + driver.get()))
@@ -138,6 +140,12 @@ fn add_cells(builder: &Builder<'_>, places: &[Place], same: &[u32], netlist: &mu
                     netlist.put_into(id, place.block);
                     Some(id)
                 }
+                ModuleSignal::Register { kind, forcing, start, .. } => {
+                    let register = RegisterNode { kind, forcing, start: Some(start), name: None, span: None };
+                    let id = netlist.add_loose_register(register);
+                    netlist.put_into(id, place.block);
+                    Some(id)
+                }
                 ModuleSignal::Constant(value) => {
                     Some(*constants[usize::from(value)].get_or_insert_with(|| netlist.add_constant(value)))
                 }
@@ -150,20 +158,30 @@ fn add_cells(builder: &Builder<'_>, places: &[Place], same: &[u32], netlist: &mu
 fn connect(builder: &Builder<'_>, places: &[Place], netlist: &mut Netlist, nets: &[NetId]) {
     for place in places {
         for (signal, at) in builder.module(place.module).signals.iter().zip(place.base as usize..) {
-            let ModuleSignal::Gate { function, pins, .. } = *signal else { continue };
-            for (pin, bit) in pins.into_iter().enumerate().take(function.arity()) {
-                netlist.connect(nets[at], pin as u8, nets[(place.base + bit) as usize]);
+            let pins = match signal {
+                ModuleSignal::Gate { function, pins, .. } => &pins[..function.arity()],
+                ModuleSignal::Register { forcing: Forcing::Never, pins, .. } => &pins[..2],
+                ModuleSignal::Register { forcing: Forcing::ToStart, pins: [data, clock, _, reset], .. } => {
+                    &[*data, *clock, *reset]
+                }
+                ModuleSignal::Register { pins, .. } => &pins[..],
+                _ => continue,
+            };
+            for (pin, bit) in (0..).zip(pins) {
+                netlist.connect(nets[at], pin, nets[(place.base + bit) as usize]);
             }
         }
     }
 }
 
-/// Cells are called as the outermost net that they drive, and begin with its start value.
+/// Cells and registers are called as the outermost net that they drive; cells begin with its start value.
 fn name_cells(builder: &Builder<'_>, places: &[Place], netlist: &mut Netlist, nets: &[NetId]) {
     for place in places {
         for (signal, name, _) in named(builder, place) {
-            if let Some(cell) = netlist.cell_mut(nets[signal as usize]) {
-                cell.name.get_or_insert(name);
+            if let Node::Cell(Cell { name: own, .. }) | Node::Register(RegisterNode { name: own, .. }) =
+                netlist.node_mut(nets[signal as usize])
+            {
+                own.get_or_insert(name);
             }
         }
         for &(bit, start) in &builder.module(place.module).starts {

@@ -16,6 +16,7 @@ mod numbers;
 mod outside;
 mod size;
 mod starts;
+mod stored;
 mod table;
 mod table_faults;
 mod unroll;

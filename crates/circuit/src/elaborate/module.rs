@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::index::ListIndex;
+use crate::register::{Forcing, RegisterKind, RegisterNode};
 use nbc_base::budget::Limit;
 use nbc_base::model::{CircuitId, ExpressionId, Function, Target};
 use nbc_base::source::Span;
@@ -32,6 +33,13 @@ pub(super) enum ModuleSignal {
         function: Function,
         pins: [Bit; 2],
         span: Span,
+    },
+    /// A register that reads its data, its clock, a set and a reset.
+    Register {
+        kind: RegisterKind,
+        forcing: Forcing,
+        start: bool,
+        pins: [Bit; 4],
     },
     /// A bit of a net, and the bit that drives it, once the statement `by` does.
     Net {
@@ -136,6 +144,7 @@ impl Sum {
         for signal in &module.signals {
             match signal {
                 ModuleSignal::Gate { .. } => sum.cells += 1,
+                ModuleSignal::Register { .. } => sum.cells += RegisterNode::CELLS as u64,
                 ModuleSignal::Net { net, .. } => {
                     sum.named += 1;
                     sum.name_bytes += module.nets[*net as usize].name.len() as u64 + BIT_BYTES;

@@ -37,7 +37,10 @@ impl Builder<'_> {
                     module = self.module(module.sites[site as usize].module);
                     (at, nets) = (module.output_bits[bit as usize], 0);
                 }
-                ModuleSignal::Input(_) | ModuleSignal::Constant(_) | ModuleSignal::Gate { .. } => return None,
+                ModuleSignal::Input(_)
+                | ModuleSignal::Constant(_)
+                | ModuleSignal::Gate { .. }
+                | ModuleSignal::Register { .. } => return None,
             }
         }
         None

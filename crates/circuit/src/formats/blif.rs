@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use crate::formats::blif_text::forced_cell;
-use crate::formats::design::{Design, Forcing, Register, RegisterKind};
 use crate::formats::draft::{Definition, Draft, DraftRegister, MOST_ERRORS, NetName};
 use crate::formats::model_gate::{ModelCover, gate};
 use crate::formats::wording::{blif as wording, text};
+use crate::formats::{Design, Forcing, Register, RegisterKind};
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::Function;

@@ -3,8 +3,8 @@
 
 use std::fmt::Write;
 
-use crate::formats::design::{Design, Forcing, Register, RegisterKind};
 use crate::formats::names::{ClockName, FileNames, cells_in_order, stand_ins, starts, visible};
+use crate::formats::{Design, Forcing, Register, RegisterKind};
 use crate::{NetId, Netlist, Node};
 
 pub fn write(design: &Design) -> String {

@@ -1,36 +1,9 @@
 //! Designs, the contents of an exchange file: a circuit and the registers of its state.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use crate::{NetId, Netlist};
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RegisterKind {
-    Rising,
-    Falling,
-    High,
-    Low,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Forcing {
-    #[default]
-    Never,
-    /// A reset gives it its start value as soon as it is 1, and keeps it while it is 1.
-    ToStart,
-    /// A set and a reset make it 1 and 0. The reset is stronger.
-    SetReset,
-}
-
-impl Forcing {
-    pub(crate) fn nets(self) -> &'static [&'static str] {
-        match self {
-            Self::Never => &[],
-            Self::ToStart => &["reset"],
-            Self::SetReset => &["set", "reset"],
-        }
-    }
-}
+use crate::register::{Forcing, RegisterKind};
+use crate::{Loops, NetId, Netlist, Node, RegisterNode};
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Register {
@@ -88,6 +61,58 @@ impl Design {
         self.logic.outputs().len() - Register::outputs(&self.registers)
     }
 
+    /// The clocks that no input or register has the name of.
+    pub(crate) fn own_clocks(&self) -> BTreeSet<&str> {
+        let known: BTreeSet<String> = self.logic.inputs().iter().map(|&id| self.logic.net_name(id)).collect();
+        self.registers.iter().map(Register::clock_name).filter(|&clock| !known.contains(clock)).collect()
+    }
+
+    /// The design as one netlist, in which registers are nodes. A clock that is not an input becomes one.
+    pub fn netlist(&self) -> Netlist {
+        self.netlist_with(&self.own_clocks()).0
+    }
+
+    /// As [`Self::netlist`], with these additional inputs; also the registers, in order.
+    pub(crate) fn netlist_with(&self, clocks: &BTreeSet<&str>) -> (Netlist, Vec<NetId>) {
+        let logic = &self.logic;
+        let mut netlist = Netlist::with_blocks_of(logic);
+        let (ports, states) = logic.inputs().split_at(self.inputs());
+        let (outputs, nexts) = logic.outputs().split_at(self.outputs());
+        let mut net: BTreeMap<NetId, NetId> = BTreeMap::new();
+        for &id in ports {
+            net.insert(id, netlist.add_input(logic.net_name(id)));
+        }
+        let mut by_name: BTreeMap<String, NetId> =
+            clocks.iter().map(|&clock| (clock.to_owned(), netlist.add_input(clock))).collect();
+        let mut registers = Vec::new();
+        for (&id, register) in states.iter().zip(&self.registers) {
+            let Register { name, kind, start, forcing, .. } = register.clone();
+            registers.push(netlist.add_loose_register(RegisterNode {
+                kind,
+                forcing,
+                start,
+                name: Some(name),
+                span: None,
+            }));
+            net.extend(registers.last().map(|&made| (id, made)));
+        }
+        copy(logic, &mut netlist, &mut net);
+        for id in logic.ids().filter(|id| !matches!(logic.node(*id), Node::Output(_) | Node::Constant(_))) {
+            by_name.entry(logic.net_name(id)).or_insert(net[&id]);
+        }
+        let forcing = self.forcing_nets();
+        for ((register, made), (&next, forcing)) in self.registers.iter().zip(&registers).zip(nexts.iter().zip(forcing))
+        {
+            let clock = by_name[register.clock_name()];
+            let pins = [net[&logic.pins(next)[0]], clock].into_iter().chain(forcing.iter().map(|pin| net[pin]));
+            (0..).zip(pins).for_each(|(pin, driver)| netlist.connect(*made, pin, driver));
+        }
+        for &id in outputs {
+            netlist.add_output(logic.net_name(id), net[&logic.pins(id)[0]]);
+        }
+        (netlist, registers)
+    }
+
     pub(crate) fn forcing(&self) -> Vec<&[NetId]> {
         let mut rest = &self.logic.outputs()[self.outputs() + self.registers.len()..];
         let mut next = |register: &Register| rest.split_off(..register.forcing.nets().len()).expect("one for each net");
@@ -97,5 +122,25 @@ impl Design {
     pub(crate) fn forcing_nets(&self) -> Vec<Vec<NetId>> {
         let driver = |&output: &NetId| self.logic.pins(output)[0];
         self.forcing().into_iter().map(|outputs| outputs.iter().map(driver).collect()).collect()
+    }
+}
+
+fn copy(logic: &Netlist, netlist: &mut Netlist, net: &mut BTreeMap<NetId, NetId>) {
+    let mut made = Vec::new();
+    for &id in Loops::of(logic).order() {
+        let copy = match logic.node(id) {
+            Node::Constant(value) => netlist.add_constant(*value),
+            Node::Cell(cell) => netlist.add_loose_cell(cell.clone()),
+            Node::Wire { name, start, span } => netlist.add_wire(name, *start, *span),
+            Node::Input(_) | Node::Output(_) | Node::Register(_) => continue,
+        };
+        netlist.put_into(copy, logic.block(id));
+        net.insert(id, copy);
+        made.push((id, copy));
+    }
+    for (id, copy) in made {
+        for (pin, driver) in (0..).zip(logic.pins(id)) {
+            netlist.connect(copy, pin, net[&driver]);
+        }
     }
 }

@@ -25,6 +25,10 @@ pub fn write(netlist: &Netlist) -> String {
                 let start = starts.get(&id).map_or(String::new(), |&start| format!("\\ninit {}", u8::from(start)));
                 format!("label=\"{}\\n{name}{start}\"{borders}", cell.function)
             }
+            Node::Register(register) => {
+                let start = u8::from(register.starts_at());
+                format!("label=\"{}\\n{name}\\ninit {start}\", peripheries=2", register.kind.word())
+            }
         };
         let _ = writeln!(text, "    n{} [{style}];", id.index());
     }

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::formats::design::{Design, Register, RegisterKind};
 use crate::formats::wording::text as wording;
+use crate::formats::{Design, Register, RegisterKind};
 use crate::proof::prove;
 use crate::{NetId, Netlist};
 use nbc_base::budget::Limit;

@@ -19,8 +19,9 @@ pub mod verilog;
 mod verilog_ports;
 mod wording;
 
+pub use crate::register::{Forcing, RegisterKind};
 pub use aiger_model::AigerModel;
 pub use blif::{verilog_design, verilog_module};
-pub use design::{Design, Forcing, Register, RegisterKind};
+pub use design::{Design, Register};
 pub use format::{CircuitFormat, CircuitSource};
 pub use nb_names::is_word;

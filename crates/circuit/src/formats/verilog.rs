@@ -6,9 +6,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-use crate::formats::design::{Design, Forcing, Register, RegisterKind};
 use crate::formats::names::{ClockName, FileNames, cells_in_order, free, stand_ins, starts, visible};
 use crate::formats::verilog_ports::{VerilogPorts, escaped, plain};
+use crate::formats::{Design, Forcing, Register, RegisterKind};
 use crate::guarded::Guarded;
 use crate::{NetId, Netlist, Node};
 use nbc_base::model::Function;

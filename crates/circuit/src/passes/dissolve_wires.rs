@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{NetId, Netlist, NetlistError, Node};
+use crate::{Cell, NetId, Netlist, NetlistError, Node, RegisterNode};
 
 /// Connects the receivers of wires to their drivers; names and start values of wires move to the driving cells.
 pub fn dissolve_wires(netlist: &mut Netlist) -> Result<(), NetlistError> {
@@ -28,6 +28,7 @@ pub fn check_drivers(netlist: &Netlist) -> Result<(), NetlistError> {
         let wanted = match netlist.node(id) {
             Node::Input(_) | Node::Constant(_) => 0,
             Node::Output(_) | Node::Wire { .. } => 1,
+            Node::Register(register) => register.pins(),
             Node::Cell(cell) => {
                 1 + (1..cell.function.inputs()).rfind(|&input| cell.function.depends_on(input)).unwrap_or(0)
             }
@@ -54,13 +55,16 @@ fn inherit(netlist: &mut Netlist, wire: NetId, driver: NetId) {
     let Node::Wire { name, start, span } = netlist.node(wire).clone() else {
         return;
     };
-    if let Node::Cell(cell) = netlist.node_mut(driver) {
-        if !name.is_empty() {
-            cell.name.get_or_insert(name);
-        }
-        cell.start = cell.start.or(start);
-        cell.span = cell.span.or(span);
+    let (Node::Cell(Cell { name: own, start: own_start, span: own_span, .. })
+    | Node::Register(RegisterNode { name: own, start: own_start, span: own_span, .. })) = netlist.node_mut(driver)
+    else {
+        return;
+    };
+    if !name.is_empty() {
+        own.get_or_insert(name);
     }
+    *own_start = own_start.or(start);
+    *own_span = own_span.or(span);
 }
 
 #[cfg(test)]

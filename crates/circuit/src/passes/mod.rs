@@ -5,6 +5,7 @@ mod fold_constants;
 mod merge_registers;
 mod share;
 mod sweep;
+mod turn_clocks;
 
 pub(crate) use dissolve_wires::check_drivers;
 pub use dissolve_wires::dissolve_wires;
@@ -12,6 +13,7 @@ use fold_constants::fold_constants;
 use merge_registers::{merge_registers, merged_registers};
 pub(crate) use share::share;
 pub use sweep::sweep;
+pub(crate) use turn_clocks::turn_clocks;
 
 use crate::{NetId, Netlist, NetlistError};
 
@@ -33,6 +35,10 @@ impl Pass {
 pub const ORDER: &[Pass] = &[
     // First, so that no other pass has to handle wires.
     Pass::new("dissolve-wires", "replaces wires by their drivers", dissolve_wires),
+    Pass::new("turn-clocks", "removes inverters before clocks", |netlist| {
+        turn_clocks(netlist);
+        Ok(())
+    }),
     // Before sharing: constants make different cells equal.
     Pass::new("fold-constants", "simplifies cells with constant or repeated pins", |netlist| {
         fold_constants(netlist);

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::loops::Loops;
-use crate::{NetId, Netlist, Node};
+use crate::{Cell, NetId, Netlist, Node, RegisterNode};
 use nbc_base::model::Function;
 
 pub fn share(netlist: &mut Netlist) {
@@ -44,10 +44,15 @@ pub(super) fn ordered<T: Ord>(function: Function, mut pins: Vec<T>) -> (Function
 
 pub(super) fn merge(netlist: &mut Netlist, id: NetId, first: NetId) {
     netlist.move_listeners(id, first);
-    let copy = netlist.cell(id).cloned();
-    if let (Node::Cell(cell), Some(copy)) = (netlist.node_mut(first), copy) {
-        cell.name = cell.name.take().or(copy.name);
-        cell.span = cell.span.or(copy.span);
+    let (name, span) = match netlist.node(id) {
+        Node::Cell(Cell { name, span, .. }) | Node::Register(RegisterNode { name, span, .. }) => (name.clone(), *span),
+        _ => (None, None),
+    };
+    if let Node::Cell(Cell { name: own, span: own_span, .. })
+    | Node::Register(RegisterNode { name: own, span: own_span, .. }) = netlist.node_mut(first)
+    {
+        *own = own.take().or(name);
+        *own_span = own_span.or(span);
     }
     netlist.remove(id);
 }

@@ -12,7 +12,9 @@ pub fn sweep(netlist: &mut Netlist) {
     }
     let unused: Vec<_> = netlist
         .ids()
-        .filter(|id| !used.contains(id) && matches!(netlist.node(*id), Node::Cell(_) | Node::Constant(_)))
+        .filter(|id| {
+            !used.contains(id) && matches!(netlist.node(*id), Node::Cell(_) | Node::Register(_) | Node::Constant(_))
+        })
         .collect();
     unused.into_iter().for_each(|id| netlist.remove(id));
 }

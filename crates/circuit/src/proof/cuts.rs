@@ -1,4 +1,4 @@
-//! Where the loops of a netlist as written are cut open, and the cells of its mapping that the cuts are.
+//! Where a netlist as written is cut open, at its registers and in its loops, and what the cuts are in its mapping.
 //!
 //! The passes that the mapping ran say it. Nothing depends on whether they are right: a cut with a wrong counterpart
 //! makes the proof fail.
@@ -7,36 +7,41 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::components::Components;
 use crate::loops::Loops;
+use crate::lowering::gate_data;
 use crate::passes::{Pass, dissolve_wires};
 use crate::{NetId, Netlist, NetlistError, Node};
 
-pub(super) struct LoopCut {
-    pub(super) cell: NetId,
+/// A register, or a cell of a loop.
+pub(super) struct StateCut {
+    pub(super) net: NetId,
     /// None if no output depends on it.
     pub(super) name: Option<String>,
-    /// The cell with which the passes have merged it, or itself.
+    /// The one with which the passes have merged it, or itself.
     pub(super) merged: NetId,
 }
 
-/// The cuts of a netlist; after these passes its memory has the names that the mapping keeps.
-pub(super) fn cuts(netlist: &Netlist, passes: &[Pass]) -> Result<Vec<LoopCut>, NetlistError> {
-    if Loops::of(netlist).cores().is_empty() {
+/// The cuts of a netlist; after these passes its state has the names that the mapping keeps.
+pub(super) fn cuts(netlist: &Netlist, passes: &[Pass]) -> Result<Vec<StateCut>, NetlistError> {
+    if Loops::through_registers(netlist).cores().is_empty() && netlist.registers().next().is_none() {
         return Ok(Vec::new());
     }
     let mut reduced = netlist.clone();
+    gate_data(&mut reduced);
     let mut merged: BTreeMap<NetId, NetId> = BTreeMap::new();
     for pass in passes {
         merged.extend((pass.merged)(&reduced));
         (pass.run)(&mut reduced)?;
     }
-    let names = core_names(&reduced, &Loops::memory(&reduced));
-    let cut = |cell: NetId| {
-        let merged = std::iter::successors(Some(cell), |id| merged.get(id).copied()).last().expect("there is a first");
-        LoopCut { cell, name: names.get(&merged).cloned(), merged }
+    let names = state_names(&reduced, &Loops::memory(&reduced));
+    let cut = |net: NetId| {
+        let merged = std::iter::successors(Some(net), |id| merged.get(id).copied()).last().expect("there is a first");
+        StateCut { net, name: names.get(&merged).cloned(), merged }
     };
     let is_cell = |id: &NetId| matches!(netlist.node(*id), Node::Cell(_));
-    let mut cuts: Vec<LoopCut> = netlist.ids().filter(is_cell).map(cut).filter(|cut| cut.name.is_some()).collect();
-    let known: BTreeSet<NetId> = cuts.iter().map(|cut| cut.cell).collect();
+    let is_register = |net: NetId| netlist.register(net).is_some();
+    let all = netlist.ids().filter(|id| is_cell(id) || is_register(*id)).map(cut);
+    let mut cuts: Vec<StateCut> = all.filter(|cut| cut.name.is_some() || is_register(cut.net)).collect();
+    let known: BTreeSet<NetId> = cuts.iter().map(|cut| cut.net).collect();
     // Loops that no output depends on. Logic between their registers may drive an output nevertheless.
     let mut plain = netlist.clone();
     dissolve_wires(&mut plain)?;
@@ -48,10 +53,15 @@ pub(super) fn cuts(netlist: &Netlist, passes: &[Pass]) -> Result<Vec<LoopCut>, N
     Ok(cuts)
 }
 
-pub(crate) fn core_names(netlist: &Netlist, loops: &Loops) -> BTreeMap<NetId, String> {
+/// The names of registers and of cells of loops, each once.
+pub(crate) fn state_names(netlist: &Netlist, loops: &Loops) -> BTreeMap<NetId, String> {
     let mut taken = BTreeSet::new();
-    let cells = netlist.ids().filter(|&id| loops.contains(id) && matches!(netlist.node(id), Node::Cell(_)));
-    cells
+    let is_state = |id: &NetId| match netlist.node(*id) {
+        Node::Cell(_) => loops.contains(*id),
+        node => matches!(node, Node::Register(_)),
+    };
+    let states = netlist.ids().filter(is_state);
+    states
         .map(|id| {
             let name = netlist.net_name(id);
             let numbered = (2..).map(|i| format!("{name}_{i}"));

@@ -1,8 +1,8 @@
 //! Proof that a mapped netlist is equivalent to its source: exhaustively up to sixteen inputs, else gate by gate, else
 //! by SAT.
 //!
-//! The source is taken as it was written, before any pass. Loops are cut open at the cells of their cores, which keep
-//! their names in mapping; so a state's next-state function is compared cell by cell.
+//! The source is taken as it was written, before any pass. It is cut open at its registers, and its loops at the cells
+//! of their cores. Both keep their names in mapping, so the logic between them is compared state by state.
 
 mod compare;
 mod cuts;
@@ -14,14 +14,14 @@ mod structural;
 use std::collections::BTreeMap;
 
 pub(crate) use compare::equal;
-pub(crate) use cuts::core_names;
+pub(crate) use cuts::state_names;
 pub use method::Method;
 pub(crate) use method::random_word;
 pub(crate) use relation::Counterpart;
 pub use sat::Comparison;
 pub(crate) use sat::{Compared, SatSweep};
 
-use crate::formats::{Design, Register};
+use crate::formats::Design;
 use crate::passes::{self, Pass};
 use crate::proof::relation::{Side, StateRelation};
 use crate::{NetId, Netlist, ProofError};
@@ -39,7 +39,7 @@ pub fn prove(source: &Netlist, mapped: &Netlist) -> Result<Proof, ProofError> {
 /// As [`prove`]. These passes of the mapping only say which cell of a loop has become which.
 fn prove_through(source: &Netlist, mapped: &Netlist, passes: &[Pass]) -> Result<Proof, ProofError> {
     same_ports(source, mapped)?;
-    prove_states([source, mapped], [&[], &[]], Vec::new(), passes)
+    prove_states([source, mapped], Known::default(), passes)
 }
 
 /// `counterparts` says what each register that was read is in the other design; if that is wrong, the proof fails.
@@ -50,40 +50,59 @@ pub(crate) fn prove_design(read: &Design, made: &Design, counterparts: Vec<Count
     };
     let ((inputs, outputs), (others, other_outputs)) = (ports(read), ports(made));
     same_names(inputs.iter().chain(&outputs), others.iter().chain(&other_outputs))?;
-    prove_states([&read.logic, &made.logic], [&read.registers, &made.registers], counterparts, passes::ORDER)
+    let clocks = read.own_clocks().into_iter().chain(made.own_clocks()).collect();
+    let [(source, own), (mapped, others)] = [read, made].map(|design| design.netlist_with(&clocks));
+    let counterparts = own.into_iter().zip(counterparts).collect();
+    prove_states([&source, &mapped], Known { counterparts, registers: others }, passes::ORDER)
 }
 
-fn prove_states(
-    [source, mapped]: [&Netlist; 2],
-    registers: [&[Register]; 2],
-    counterparts: Vec<Counterpart>,
-    passes: &[Pass],
-) -> Result<Proof, ProofError> {
+/// What is known of registers before their names are compared.
+#[derive(Default)]
+struct Known {
+    counterparts: BTreeMap<NetId, Counterpart>,
+    /// The registers of the result, as counterparts count them.
+    registers: Vec<NetId>,
+}
+
+fn prove_states([source, mapped]: [&Netlist; 2], known: Known, passes: &[Pass]) -> Result<Proof, ProofError> {
     passes::check_drivers(source)?;
-    let found = cuts::cuts(source, passes)?;
-    let named: BTreeMap<_, _> = mapped.cells().filter_map(|(id, cell)| Some((cell.name.clone()?, id))).collect();
+    passes::check_drivers(mapped)?;
+    let mut found = cuts::cuts(source, passes)?;
+    // Known registers are counted as those that know them do.
+    let order: BTreeMap<NetId, usize> = known.counterparts.keys().enumerate().map(|(at, &net)| (net, at)).collect();
+    found.sort_by_key(|cut| order.get(&cut.net).copied().unwrap_or(usize::MAX));
+    let states = mapped.cells().map(|(id, cell)| (id, &cell.name));
+    let states = states.chain(mapped.registers().map(|(id, register)| (id, &register.name)));
+    let named: BTreeMap<&str, NetId> = states.filter_map(|(id, name)| Some((name.as_deref()?, id))).collect();
     let mut names: Vec<String> = Vec::new();
-    let mut places: BTreeMap<&String, usize> = BTreeMap::new();
+    let mut places: BTreeMap<NetId, usize> = (0..).zip(&known.registers).map(|(at, &net)| (net, at)).collect();
+    let mut others = known.registers.clone();
     let mut lost: BTreeMap<NetId, usize> = BTreeMap::new();
-    let mut cuts = Vec::new();
-    for cut in &found {
-        let name = cut.name.as_ref().filter(|&name| named.contains_key(name));
-        cuts.push(match (name, lost.get(&cut.merged)) {
-            (Some(name), _) => Counterpart::Same(*places.entry(name).or_insert_with(|| {
+    let mut counterparts = Vec::new();
+    for (at, cut) in found.iter().enumerate() {
+        if let Some(&counterpart) = known.counterparts.get(&cut.net) {
+            counterparts.push(counterpart);
+            continue;
+        }
+        let is_register = source.register(cut.net).is_some();
+        let is_same = |&net: &NetId| mapped.register(net).is_some() == is_register;
+        let same = cut.name.as_ref().and_then(|name| Some((name, named.get(name.as_str()).copied().filter(is_same)?)));
+        counterparts.push(match (same, lost.get(&cut.merged)) {
+            (Some((name, net)), _) => Counterpart::Same(*places.entry(net).or_insert_with(|| {
                 names.push(name.clone());
-                registers[1].len() + names.len() - 1
+                others.push(net);
+                others.len() - 1
             })),
             (None, Some(&first)) => Counterpart::Like(first),
             (None, None) => {
-                lost.insert(cut.merged, registers[0].len() + cuts.len());
+                lost.insert(cut.merged, at);
                 Counterpart::Unused
             }
         });
     }
-    let mapped_cuts = names.iter().map(|name| named[name]).collect();
-    let reference = Side { logic: source, registers: registers[0], cuts: found.iter().map(|cut| cut.cell).collect() };
-    let result = Side { logic: mapped, registers: registers[1], cuts: mapped_cuts };
-    let method = StateRelation { reference, result, registers: counterparts, cuts }.prove()?;
+    let reference = Side { logic: source, states: found.iter().map(|cut| cut.net).collect() };
+    let result = Side { logic: mapped, states: others };
+    let method = StateRelation { reference, result, counterparts }.prove()?;
     Ok(Proof { method, cuts: names })
 }
 

@@ -5,9 +5,9 @@ use rand_chacha::ChaCha8Rng;
 
 use super::*;
 use crate::elaborate::MemoryPorts;
+use crate::example::flip_flop;
 use crate::passes::dissolve_wires;
 use crate::properties::system::is_on;
-use crate::registers::flip_flop;
 use crate::waves::{ClockRun, ClockStep};
 use crate::{Environment, Logic, NetId, Netlist, Settled};
 use nbc_base::model::{Function, Property, PropertyKind};

@@ -7,6 +7,7 @@
 //! settle for all inputs.
 
 use crate::and_graph::{AndGraph, AndLiteral};
+use crate::lowering::as_nands;
 use crate::network::{Network, View};
 use crate::passes::{dissolve_wires, sweep};
 use crate::properties::solver::{ClauseSolver, Solved};
@@ -60,7 +61,7 @@ impl Machine {
     }
 
     fn settling(netlist: &Netlist, why: WaveError, allowed: &Network, cancel: &CancelFlag) -> Result<Self, NoSteps> {
-        let mut plain = netlist.clone();
+        let mut plain = as_nands(netlist);
         let is_plain = dissolve_wires(&mut plain).map(|()| sweep(&mut plain));
         if is_plain.is_err() || plain.cells().count() > MOST_CELLS {
             return Err(NoSteps::Memory(why));

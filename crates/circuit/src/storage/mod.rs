@@ -4,6 +4,7 @@
 mod cone;
 mod element;
 mod latch;
+mod raise;
 
 use std::collections::BTreeMap;
 
@@ -11,8 +12,11 @@ use crate::cells::CellKind;
 use crate::loops::Loops;
 use crate::{NetId, Netlist};
 
-pub use cone::Inverters;
-pub use latch::{Follower, Latch, Unphased, WhyUnphased};
+pub(crate) use cone::Inverters;
+pub(crate) use latch::Follower;
+pub use latch::{Latch, Unphased, WhyUnphased};
+pub use raise::latches_as_registers;
+pub(crate) use raise::{Raised, pair_latches};
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FlipFlop {

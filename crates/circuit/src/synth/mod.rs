@@ -15,5 +15,6 @@ mod walk;
 mod wide;
 
 pub(crate) use candidates::below;
+pub(crate) use reduce::reduce_between_registers;
 pub use reduce::{alternative, reduce};
 pub use wide::{CellNetwork, Coverer, NetworkCell, widen};

@@ -1,5 +1,7 @@
 //! The reduction of a network: which searches run, in which order, for which effort.
 
+use std::collections::BTreeSet;
+
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
@@ -20,6 +22,8 @@ use crate::synth::walk::{self, DelayGoal, MANY_GATES, WalkPlan};
 use nbc_base::model::Function;
 
 const WHOLE_INPUTS: usize = 12;
+/// The same where inputs are registers: more patterns take longer there, and save few cells.
+const WHOLE_STATES: usize = 10;
 const WHOLE_GATES: usize = 600;
 /// The product of gates and 64-bit words of patterns above which a walk over every pattern makes fewer visits.
 const WHOLE_WORK: u64 = 1_200_000_000;
@@ -68,6 +72,33 @@ pub fn reduce(
     })
 }
 
+/// The same without the inputs that no gate reads, such as clocks, which would only make the patterns more.
+pub fn reduce_between_registers(
+    network: &Network,
+    stages: &[u32],
+    library: &CellLibrary,
+    options: &MapOptions,
+) -> Result<Network, Function> {
+    let pins = network.gates.iter().flat_map(|gate| gate.pins);
+    let read: BTreeSet<usize> = pins.filter_map(|pin| (pin as usize).checked_sub(2)).collect();
+    let read: Vec<usize> = read.range(..network.inputs).copied().collect();
+    if read.len() == network.inputs || stages.iter().all(|&stage| stage == 0) {
+        return reduce(network, stages, library, options);
+    }
+    let mut own = Network::new(read.len());
+    let mut inputs = vec![0; network.inputs];
+    read.iter().enumerate().for_each(|(at, &input)| inputs[input] = own.input(at));
+    own.outputs = own.include(network, &inputs);
+    let stages: Vec<u32> = read.iter().filter_map(|&input| stages.get(input).copied()).collect();
+    let reduced = reduce(&own, &stages, library, options)?;
+    let mut whole = Network::new(network.inputs);
+    let made = whole.include(&reduced, &read.iter().map(|&input| network.input(input)).collect::<Vec<_>>());
+    let is_port = |signal: Signal| (signal as usize) < 2 + network.inputs;
+    let shown = network.outputs.iter().zip(made);
+    whole.outputs = shown.map(|(&output, made)| if is_port(output) { output } else { made }).collect();
+    Ok(whole)
+}
+
 /// Another network of the same function, at the end of a short walk; it may have some cells more.
 pub fn alternative(network: &Network, prices: &Prices, visits: u64, random: &mut ChaCha8Rng) -> Network {
     let plan = WalkPlan::downhill(visits);
@@ -106,10 +137,6 @@ pub fn cover(network: &Network, prices: &Prices, stages: &[u32]) -> Result<Netwo
     Ok(graph.finish(swept.outputs.iter().map(|&output| made[output as usize])))
 }
 
-fn is_narrow(network: &Network) -> bool {
-    network.inputs <= WHOLE_INPUTS && network.gates.len() <= WHOLE_GATES
-}
-
 #[derive(Clone, Copy)]
 struct Reduction<'a> {
     prices: &'a Prices,
@@ -119,6 +146,15 @@ struct Reduction<'a> {
 }
 
 impl<'a> Reduction<'a> {
+    fn is_combinational(&self) -> bool {
+        self.stages.iter().all(|&stage| stage == 0)
+    }
+
+    fn is_narrow(&self, network: &Network) -> bool {
+        let most = if self.is_combinational() { WHOLE_INPUTS } else { WHOLE_STATES };
+        network.inputs <= most && network.gates.len() <= WHOLE_GATES
+    }
+
     /// The network with trees in the place of chains, if it is deeper than one and a half times these, and its cells.
     fn tree(&self, network: &Network, direct: &Network) -> Result<Option<(Network, Network)>, Function> {
         let highest = |network: &Network| levels(network).into_iter().max().unwrap_or(0);
@@ -143,7 +179,7 @@ impl<'a> Reduction<'a> {
         }
         let exclusive = self.prices.cost(Function::XOR).unwrap_or(4);
         let best = self.search(direct, 2, random);
-        if exclusive <= 1 || self.effort == Effort::Fast && !is_narrow(direct) {
+        if exclusive <= 1 || self.effort == Effort::Fast && !self.is_narrow(direct) {
             return Ok(best);
         }
         // An exclusive or is counted as slightly less than its cells.
@@ -179,9 +215,9 @@ impl<'a> Reduction<'a> {
     }
 
     fn search(&self, network: &Network, share: u64, random: &mut ChaCha8Rng) -> Network {
-        if !is_narrow(network) {
+        if !self.is_narrow(network) {
             let wide = self.search_wide(network, share, random);
-            return if is_narrow(&wide) { self.search_whole(&wide, share, random) } else { wide };
+            return if self.is_narrow(&wide) { self.search_whole(&wide, share, random) } else { wide };
         }
         match network.gates.len() > MANY_GATES && self.effort == Effort::Normal {
             true => self.search_whole(&self.search_wide(network, share, random), share, random),
@@ -215,7 +251,7 @@ impl<'a> Reduction<'a> {
                     walk::improve(part, self.prices, stages, &[], plan, random)
                 })
             });
-            if round.far == 0 || is_narrow(&near) {
+            if round.far == 0 || self.is_narrow(&near) {
                 return near;
             }
             let first = below(random, FAR_GATES) + 1;
@@ -238,8 +274,7 @@ impl<'a> Reduction<'a> {
             Effort::Fast => 10_000,
             Effort::Normal => 100_000,
         };
-        let combinational = self.stages.iter().all(|&stage| stage == 0);
-        if best.inputs > exact::MOST_INPUTS || !combinational || !self.prices.are_even() {
+        if best.inputs > exact::MOST_INPUTS || !self.is_combinational() || !self.prices.are_even() {
             return best;
         }
         match exact::fewer(&best, self.prices, cost(&best, self.prices), nodes, self.cancel) {
@@ -251,7 +286,7 @@ impl<'a> Reduction<'a> {
     fn shorten(&self, network: &Network, random: &mut ChaCha8Rng) -> Network {
         let visits = (SHORTENING_VISITS * network.gates.len() as u64).min(MOST_SHORTENING);
         let plan = WalkPlan { delay: DelayGoal::Shorten, ..self.downhill(visits) };
-        match is_narrow(network) {
+        match self.is_narrow(network) {
             true => walk::improve_all(network, self.prices, self.stages, plan, random),
             false => walk::improve(network, self.prices, self.stages, &[], plan, random),
         }
@@ -268,7 +303,7 @@ impl<'a> Reduction<'a> {
         for _ in 0..rounds {
             for delay in [DelayGoal::SlowestPath, DelayGoal::Keep] {
                 let plan = WalkPlan { delay, ..self.downhill((10 * now.gates.len() as u64).min(3_000)) };
-                now = match is_narrow(&now) {
+                now = match self.is_narrow(&now) {
                     true => walk::improve_all(&now, self.prices, self.stages, plan, random),
                     false => improve_on_samples(&now, self.prices, self.stages, plan, random),
                 };

@@ -6,11 +6,9 @@
 
 mod arrivals;
 mod clock;
-mod held;
 mod phase;
 mod phase_timing;
 mod update;
-mod wording;
 
 use petgraph::visit::NodeIndexable;
 
@@ -21,7 +19,6 @@ use crate::{NetId, Netlist, Node, Storage, Unphased, WhyUnphased};
 
 pub use arrivals::Delays;
 pub use clock::{ClockPath, ClockTimes, InputTimes};
-pub use held::{Held, KeptLatch};
 pub use phase_timing::{PhaseTiming, TimedFlipFlop, TimedLatch, UnphasedLoop};
 
 #[derive(Clone, Debug, PartialEq, Eq)]

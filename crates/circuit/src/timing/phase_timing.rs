@@ -3,7 +3,8 @@
 
 use serde::Serialize;
 
-use crate::timing::{ClockPath, ClockTimes, InputTimes, KeptLatch, Timing};
+use crate::lowering::KeptLatch;
+use crate::timing::{ClockPath, ClockTimes, InputTimes, Timing};
 use crate::{CellKind, FlipFlop, Latch, NetId, Netlist, Unphased};
 use nbc_base::diag::counted;
 

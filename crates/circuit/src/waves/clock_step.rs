@@ -1,14 +1,12 @@
 //! One step of a clocked circuit: what follows from its inputs and its state, without the cells of its registers.
 
-use std::collections::BTreeMap;
-
-use crate::cells::CellKind;
-use crate::network::{Network, Signal, View};
+use crate::network::{Network, View};
 use crate::passes::{dissolve_wires, sweep};
+use crate::register::{Forcing, RegisterKind};
 use crate::signal_blocks::SignalBlocks;
-use crate::storage::{Follower, Inverters};
+use crate::storage::{Inverters, Raised, pair_latches};
 use crate::waves::wording::WaveError;
-use crate::{Blocks, Latch, Logic, NetId, Netlist, Node, Storage};
+use crate::{Blocks, Loops, NetId, Netlist, Node, RegisterNode};
 use nbc_base::model::Function;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,84 +31,64 @@ pub struct ClockStep {
     pub(super) signal_blocks: SignalBlocks,
 }
 
-struct Register {
-    /// The cells of the second latch, each with whether it shows the opposite of the first of them.
-    shows: Vec<(NetId, bool)>,
-    /// The cells of the first latch, which nothing else may read.
-    first: Vec<NetId>,
-    /// The cell of the first latch that the second one stores, and whether the bit is the opposite of it.
-    held: (NetId, bool),
-    /// The net of the data, and whether the first cell shows the opposite of it.
-    data: (NetId, bool),
-    /// The net that clocks it, and whether it takes the data when that rises.
-    clock: (NetId, bool),
-}
-
 impl ClockStep {
     pub fn of(source: &Netlist) -> Result<Self, WaveError> {
-        const KIND: CellKind = CellKind::uniform(1, 1.0);
         let mut netlist = source.clone();
         dissolve_wires(&mut netlist).map_err(WaveError::Netlist)?;
         sweep(&mut netlist);
-        let storage = Storage::of(&netlist, |_| &KIND);
-        if let Some(unphased) = storage.unphased.first() {
-            return Err(WaveError::Loop { net: netlist.net_name(unphased.nets[0]) });
+        let Raised { mut netlist, contradicting } = Raised::of(&netlist);
+        if let Some(&net) = contradicting.first() {
+            return Err(WaveError::Starts { net: netlist.net_name(net) });
         }
-        let registers = registers(&netlist, &storage)?;
+        pair_latches(&mut netlist);
+        let name = |id: NetId| netlist.net_name(id);
+        for (id, register) in netlist.registers() {
+            if register.forcing != Forcing::Never {
+                return Err(WaveError::Forced { net: name(id) });
+            }
+            if !register.kind.is_edge() {
+                return Err(WaveError::Latch { net: name(id) });
+            }
+        }
+        if let Some(core) = Loops::of(&netlist).cores().first() {
+            return Err(WaveError::Loop { net: name(core[0]) });
+        }
+        let registers: Vec<NetId> = netlist.registers().map(|(id, _)| id).collect();
         let clock = clock(&netlist, &registers)?;
         Self::cut(&netlist, &registers, clock)
     }
 
-    fn cut(netlist: &Netlist, registers: &[Register], clock: Option<(NetId, bool)>) -> Result<Self, WaveError> {
-        let shown = registers.iter().flat_map(|register| register.shows.iter().map(|&(id, _)| id));
-        let cuts: Vec<NetId> = shown.chain(registers.iter().flat_map(|register| register.first.clone())).collect();
-        let view = View::of(netlist, &cuts).map_err(|id| WaveError::Loop { net: netlist.net_name(id) })?;
-        let ports = netlist.inputs().len();
+    fn cut(netlist: &Netlist, registers: &[NetId], clock: Option<(NetId, bool)>) -> Result<Self, WaveError> {
+        let view = View::of(netlist, registers).map_err(|id| WaveError::Loop { net: netlist.net_name(id) })?;
         let mut logic = view.network.clone();
-        let wanted = netlist.outputs().iter().map(|&id| netlist.pins(id)[0]);
-        let data = registers.iter().map(|register| register.data.0);
-        logic.outputs = wanted.chain(data).map(|net| view.signal[&net]).collect();
+        logic.outputs.truncate(netlist.outputs().len());
+        // Each register has an inverter of its own before its data: searches and wave machines are the better for it.
+        let inverters = Inverters::of(netlist);
+        for &id in registers {
+            let (root, is_opposite) = inverters.root(netlist.pins(id)[usize::from(RegisterNode::DATA)]);
+            let data = view.signal[&root];
+            let data = if is_opposite { logic.add(Function::NOT, [data; 2]) } else { data };
+            logic.outputs.push(data);
+        }
         let (logic, swept) = logic.swept_signals();
-        // What each input of the cut logic is: a port, or a bit of the state, maybe inverted.
-        let mut place: BTreeMap<NetId, (usize, bool)> = BTreeMap::new();
-        for (at, register) in registers.iter().enumerate() {
-            place.extend(register.shows.iter().map(|&(id, inverted)| (id, (ports + at, inverted))));
+        let clock_input = clock.and_then(|(clock, _)| netlist.inputs().iter().position(|&id| id == clock));
+        if let Some(input) = clock_input.filter(|&input| used_inputs(&logic)[input]) {
+            return Err(WaveError::ClockIsRead { clock: netlist.net_name(netlist.inputs()[input]) });
         }
-        let mut step = Network::new(ports + registers.len());
-        let used = used_inputs(&logic);
-        let mut made: Vec<Signal> = vec![0, 1];
-        for (at, &id) in netlist.inputs().iter().chain(&cuts).enumerate() {
-            if used[at] && Some(id) == clock.map(|(clock, _)| clock) {
-                return Err(WaveError::ClockIsRead { clock: netlist.net_name(id) });
-            }
-            let signal = match place.get(&id) {
-                _ if at < ports => step.input(at),
-                Some(&(bit, false)) => step.input(bit),
-                Some(&(bit, true)) if used[at] => step.add(Function::NOT, [step.input(bit); 2]),
-                Some(_) => 0,
-                None if used[at] => return Err(WaveError::Latch { net: netlist.net_name(id) }),
-                None => 0,
-            };
-            made.push(signal);
-        }
-        for gate in &logic.gates {
-            made.push(step.add(gate.function, gate.pins.map(|pin| made[pin as usize])));
-        }
-        step.outputs = logic.outputs.iter().map(|&output| made[output as usize]).collect();
-        for (at, _) in (netlist.outputs().len()..).zip(registers).filter(|(_, register)| register.data.1) {
-            step.outputs[at] = step.add(Function::NOT, [step.outputs[at]; 2]);
-        }
-        let logical: Vec<Signal> = swept.iter().map(|&signal| made[signal as usize]).collect();
-        let signal_blocks = SignalBlocks::of(netlist, &view).renumbered(&logical, step.signals());
+        let signal_blocks = SignalBlocks::of(netlist, &view).renumbered(&swept, logic.signals());
         let names = |ids: &[NetId]| ids.iter().map(|&id| netlist.net_name(id)).collect::<Vec<_>>();
+        let bit = |&id: &NetId| StateBit {
+            name: netlist.net_name(id),
+            start: netlist.register(id).is_some_and(RegisterNode::starts_at),
+        };
         Ok(Self {
             name: netlist.name.clone(),
             inputs: names(netlist.inputs()),
             outputs: names(netlist.outputs()),
-            clock: clock.and_then(|(clock, _)| netlist.inputs().iter().position(|&id| id == clock)),
+            clock: clock_input,
             rises: clock.is_none_or(|(_, rises)| rises),
-            state: state(netlist, registers)?,
-            logic: step,
+            state: registers.iter().map(bit).collect(),
+            logic,
             blocks: netlist.blocks().without_nodes(),
             signal_blocks,
         })
@@ -132,70 +110,27 @@ fn used_inputs(network: &Network) -> Vec<bool> {
     used[2..2 + network.inputs].to_vec()
 }
 
-fn registers(netlist: &Netlist, storage: &Storage) -> Result<Vec<Register>, WaveError> {
-    let mut is_paired = vec![false; storage.latches.len()];
-    for pair in &storage.flip_flops {
-        (is_paired[pair.first], is_paired[pair.second]) = (true, true);
-    }
-    let latch_error = |latch: &Latch| WaveError::Latch { net: netlist.net_name(latch.cells[0]) };
-    if let Some((latch, _)) = storage.latches.iter().zip(&is_paired).find(|(_, is_paired)| !**is_paired) {
-        return Err(latch_error(latch));
-    }
-    let inverters = Inverters::of(netlist);
-    let register = |pair: &crate::FlipFlop| {
-        let [first, second] = [pair.first, pair.second].map(|latch| &storage.latches[latch]);
-        let follow = |latch: &Latch| Follower::of(netlist, &inverters, latch).ok_or_else(|| latch_error(latch));
-        let (taken, shown) = (follow(first)?, follow(second)?);
-        let (_, inverted) = *taken.cells.iter().find(|(id, _)| *id == shown.data).ok_or_else(|| latch_error(second))?;
-        // The cell that the source names, and not its opposite inside the register, is the bit of the state.
-        let mut cells = shown.cells;
-        cells.sort_by_key(|(id, _)| netlist.net_name(*id).len());
-        let named = cells[0].1;
-        Ok(Register {
-            shows: cells.iter().map(|&(id, opposite)| (id, opposite != named)).collect(),
-            first: first.cells.clone(),
-            held: (shown.data, named),
-            data: (taken.data, named != inverted),
-            clock: (second.root, pair.rising),
-        })
+fn clock(netlist: &Netlist, registers: &[NetId]) -> Result<Option<(NetId, bool)>, WaveError> {
+    let Some(&first) = registers.first() else { return Ok(None) };
+    let name = |id: NetId| netlist.net_name(id);
+    let clock = |id: NetId| {
+        let rises = netlist.register(id).is_some_and(|register| register.kind == RegisterKind::Rising);
+        (netlist.pins(id)[usize::from(RegisterNode::CLOCK)], rises)
     };
-    storage.flip_flops.iter().map(register).collect()
-}
-
-fn clock(netlist: &Netlist, registers: &[Register]) -> Result<Option<(NetId, bool)>, WaveError> {
-    let Some(first) = registers.first() else { return Ok(None) };
-    let name = |register: &Register| netlist.net_name(register.shows[0].0);
-    for register in registers {
-        if !matches!(netlist.node(register.clock.0), Node::Input(_)) {
-            let clock = netlist.net_name(register.clock.0);
-            return Err(WaveError::GatedClock { net: name(register), clock });
+    let (input, rises) = clock(first);
+    for &register in registers {
+        let (own, own_rises) = clock(register);
+        if !matches!(netlist.node(own), Node::Input(_)) {
+            return Err(WaveError::GatedClock { net: name(register), clock: name(own) });
         }
-        if register.clock.0 != first.clock.0 {
-            let nets = [first, register].map(name);
-            let clocks = [first, register].map(|register| netlist.net_name(register.clock.0));
+        if own != input {
+            let (nets, clocks) = ([first, register].map(name), [input, own].map(name));
             return Err(WaveError::TwoClocks { nets, clocks });
         }
-        if register.clock.1 != first.clock.1 {
-            let (rising, falling) = if first.clock.1 { (first, register) } else { (register, first) };
+        if own_rises != rises {
+            let (rising, falling) = if rises { (first, register) } else { (register, first) };
             return Err(WaveError::BothEdges { rising: name(rising), falling: name(falling) });
         }
     }
-    Ok(Some(first.clock))
-}
-
-/// Those without a start value start as the circuit does.
-fn state(netlist: &Netlist, registers: &[Register]) -> Result<Vec<StateBit>, WaveError> {
-    let before = Logic::new(netlist);
-    let bit = |register: &Register| {
-        let (id, _) = register.shows[0];
-        let (name, start) = (netlist.net_name(id), before.value(id));
-        let starts = |(cell, is_opposite): (NetId, bool)| before.value(cell) == (start != is_opposite);
-        // While its clock is 0, a register that stores when that falls shows its first latch.
-        let is_held = register.clock.1 || starts(register.held);
-        if is_held && register.shows.iter().all(|&cell| starts(cell)) {
-            return Ok(StateBit { name, start });
-        }
-        Err(WaveError::Starts { net: name })
-    };
-    registers.iter().map(bit).collect()
+    Ok(Some((input, rises)))
 }

@@ -5,8 +5,8 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use super::*;
-use crate::example::random_machine;
-use crate::registers::flip_flop;
+use crate::as_nands;
+use crate::example::{flip_flop, random_machine};
 use crate::{NetId, Node};
 use nbc_base::model::Function;
 
@@ -120,7 +120,7 @@ fn a_register_starts_as_its_cells_do_though_the_one_that_names_it_has_no_start_v
     let mut random = ChaCha8Rng::seed_from_u64(72);
     let mut started = [0; 2];
     for _ in 0..50 {
-        let mut source = random_machine(&mut random);
+        let mut source = as_nands(&random_machine(&mut random));
         let expected = ClockStep::of(&source).unwrap();
         let named: Vec<_> = source
             .cells()
@@ -141,6 +141,7 @@ fn started(rises: bool, starts: [Option<bool>; 4]) -> Netlist {
     let edge = if rises { clock } else { netlist.add_gate(Function::NOT, &[clock]) };
     let q = flip_flop(&mut netlist, "q", d, edge, false);
     netlist.add_output("o", q);
+    let mut netlist = as_nands(&netlist);
     for (name, start) in ["q", "q.n", "q.held", "q.held.n"].into_iter().zip(starts) {
         let id = netlist.ids().find(|&id| netlist.net_name(id) == name).unwrap();
         netlist.cell_mut(id).unwrap().start = start;

@@ -12,6 +12,7 @@ pub enum WaveError {
     NoBuffer,
     Loop { net: String },
     Latch { net: String },
+    Forced { net: String },
     GatedClock { net: String, clock: String },
     TwoClocks { nets: [String; 2], clocks: [String; 2] },
     BothEdges { rising: String, falling: String },
@@ -29,6 +30,7 @@ impl fmt::Display for WaveError {
             Self::NoBuffer => f.write_str("no robot of the library delays a net"),
             Self::Loop { net } => write!(f, "the loop through `{net}` has no register"),
             Self::Latch { net } => write!(f, "`{net}` is a latch, not a register"),
+            Self::Forced { net } => write!(f, "`{net}` is set or reset without its clock"),
             Self::GatedClock { net, clock } => write!(f, "the clock of `{net}` is `{clock}`, which is not an input"),
             Self::TwoClocks { nets: [one, two], clocks: [a, b] } => {
                 write!(f, "the registers have two clocks: `{a}` for `{one}` and `{b}` for `{two}`")
@@ -58,6 +60,7 @@ impl WaveError {
             Self::Loop { .. } | Self::Latch { .. } => {
                 "in a wave machine every loop passes a `register`; `registers: mux` allows latches".to_owned()
             }
+            Self::Forced { .. } => "let the clock reset it, with the operand `reset` of `register`".to_owned(),
             Self::GatedClock { .. } => {
                 "let every register change in each step, and keep a value with `if enable then new else old`".to_owned()
             }

@@ -293,8 +293,8 @@ impl<'a> Assembly<'a> {
                 sources.push((home, source));
             }
         }
-        let selector = self.names.circuits.find("select", Home::Prelude);
-        self.program.selector = selector.map(|at| CircuitId(at as u32));
+        let prelude = |name| self.names.circuits.find(name, Home::Prelude).map(|at| CircuitId(at as u32));
+        (self.program.selector, self.program.stored) = (prelude("select"), prelude("stored"));
         let mut calls = Vec::new();
         for &(home, source) in &sources {
             let checked =
