@@ -280,7 +280,7 @@ fn messages_are_written_in_wording_files() {
 
 /// The most lines of Rust in each room. Whoever needs more raises a figure here, and says why in the commit.
 const ROOMS: [(&str, usize); 16] = [
-    ("crates/base", 7_000),
+    ("crates/base", 7_100),
     ("crates/circuit", 25_260),
     ("crates/cluster", 2_700),
     ("crates/lang", 12_300),
@@ -292,7 +292,7 @@ const ROOMS: [(&str, usize); 16] = [
     ("crates/session", 5_950),
     ("crates/sim", 6_900),
     ("crates/store", 4_300),
-    ("crates/swarm", 7_550),
+    ("crates/swarm", 8_000),
     ("crates/web", 650),
     ("src", 9_150),
     ("tests/it", 19_880),

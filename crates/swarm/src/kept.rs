@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Flip;
-use crate::own_clock::Heard;
+use crate::hearing::Heard;
 use nbc_base::model::{Fault, FaultKind};
 use nbc_sim::{Snapshot, State};
 

@@ -12,6 +12,7 @@ mod evaluation;
 pub mod evolve;
 mod executor;
 mod gate;
+mod hearing;
 mod holds;
 mod judge;
 mod judge_waves;

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use crate::own_clock::{Heard, Hearing};
+use crate::hearing::{Heard, Hearing};
 use crate::sensing::Sensing;
 use crate::{
     Assembly, CyclePart, CycleTrace, Flip, KeptSwarm, OwnClock, PartStates, Recording, RobotFault, Room, SwarmTrace,
@@ -167,7 +167,8 @@ impl LiveSwarm {
         KeptSwarm::new(bits, self.trace.flips.clone(), (0..self.flock.len()).map(robot))
     }
 
-    /// Continues from a kept swarm with these inputs; returns whether it fits. Earlier paths are unknown: it stands still.
+    /// Continues from a kept swarm with these inputs; returns whether it fits. In earlier paths, which are unknown, it
+    /// stands still.
     pub fn go_on(&mut self, kept: &KeptSwarm, assembly: &Assembly, inputs: &[Vec<bool>]) -> bool {
         let outputs = kept.outputs(assembly.members.len()).filter(|cycles| cycles.len() <= inputs.len());
         let Some(outputs) = outputs else { return false };

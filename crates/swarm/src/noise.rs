@@ -6,7 +6,7 @@ use std::sync::Arc;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::OwnClock;
+use crate::own_clock::OwnClock;
 use nbc_base::model::{
     Body, CYCLE_STEPS, Drive, Material, MaterialKind, Palette, Response, Schedule, Spell, WorldNoise,
 };
