@@ -25,10 +25,6 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// Copies what Python gave.
-    ///
-    /// # Errors
-    /// When there are fewer codes than the shapes need, and `MemoryError`.
     pub fn read(
         codes: &PyReadonlyArray1<'_, u8>,
         shapes: &PyReadonlyArray2<'_, u64>,
@@ -48,7 +44,6 @@ impl Batch {
         Ok(batch)
     }
 
-    /// The number of bodies.
     pub fn len(&self) -> usize {
         self.shapes.len()
     }
@@ -65,9 +60,6 @@ impl Batch {
     }
 
     /// A body in one piece.
-    ///
-    /// # Errors
-    /// Why it is not one.
     pub fn body(&self, i: usize) -> Result<Body, String> {
         let body = self.any_body(i)?;
         if body.is_connected() { Ok(body) } else { Err("the body is not in one piece".to_owned()) }
@@ -81,9 +73,6 @@ impl Batch {
     }
 
     /// All bodies, each in one piece.
-    ///
-    /// # Errors
-    /// `MemoryError`, and the first body that is invalid, by its index, with the number of those after it.
     pub fn all(&self, check: impl Fn(&Body) -> Result<(), String>) -> PyResult<Vec<Body>> {
         let mut bodies = reserved(self.len())?;
         let mut wrong = Vec::new();
@@ -124,7 +113,6 @@ impl Batch {
     }
 }
 
-/// The palette of these materials, as JSON.
 pub fn palette(materials: &str) -> PyResult<Arc<Palette>> {
     let read: Result<Palette, _> = serde_json::from_str(materials);
     read.map(Arc::new).map_err(|error| bad_value(format!("materials: {}", offering(without_place(&error.to_string())))))
@@ -154,7 +142,6 @@ pub fn invalid_bodies(
     })
 }
 
-/// The paper's materials, as JSON.
 #[pyfunction]
 pub fn paper_materials() -> String {
     serde_json::to_string(&*Palette::paper()).expect("materials can be written as JSON")
@@ -214,7 +201,6 @@ pub fn robot_record(robot: &nbc::Robot) -> Value {
     })
 }
 
-/// The picture of a body as SVG.
 #[pyfunction]
 pub fn draw_body(
     py: Python<'_>,
@@ -231,7 +217,6 @@ pub fn draw_body(
     })
 }
 
-/// The color scheme.
 pub fn scheme(safe_colors: bool) -> Scheme {
     if safe_colors { Scheme::Safe } else { Scheme::Paper }
 }

@@ -11,7 +11,6 @@ use crate::errors::internal;
 use crate::swarm::Swarm;
 use crate::work::at_once;
 
-/// A circuit compiled to a swarm.
 #[pyclass(frozen)]
 pub struct Compiled {
     session: Arc<Session>,
@@ -20,7 +19,6 @@ pub struct Compiled {
 }
 
 impl Compiled {
-    /// What the session made.
     pub fn new(session: Arc<Session>, checked: Arc<Checked>, compiled: nbc::Compiled) -> Self {
         Self { session, checked, compiled: Arc::new(compiled) }
     }
@@ -38,18 +36,15 @@ impl Compiled {
         at_once(py, || Ok(self.netlist_json(as_written)))
     }
 
-    /// The static timing, as JSON.
     fn timing(&self, py: Python<'_>) -> PyResult<String> {
         let timing = || serde_json::to_string(&self.compiled.swarm_timing());
         at_once(py, || timing().map_err(|error| internal(py, &error.to_string())))
     }
 
-    /// The schematic as SVG.
     fn schematic(&self, py: Python<'_>, safe_colors: bool) -> PyResult<String> {
         at_once(py, || Ok(self.compiled.schematic(scheme(safe_colors)).top().finish()))
     }
 
-    /// The swarm at its start.
     fn swarm(&self, py: Python<'_>) -> PyResult<Swarm> {
         at_once(py, || Ok(Swarm::new(self.session.swarm(&self.compiled))))
     }

@@ -12,13 +12,11 @@ fn exception<'py>(py: Python<'py>, name: &str, arguments: impl pyo3::call::PyCal
     made.map_or_else(|error| error, PyErr::from_value)
 }
 
-/// The exception for diagnostics.
 pub fn diagnosed(py: Python<'_>, found: &Diagnostics) -> PyErr {
     let data = serde_json::to_string(&found.findings()).expect("diagnostics are data");
     exception(py, "_diagnosed", (found.to_string(), data))
 }
 
-/// The exception for a diagnostic without a place.
 pub fn without_place(py: Python<'_>, found: Diagnostic) -> PyErr {
     diagnosed(py, &Diagnostics::from(found))
 }
@@ -30,17 +28,14 @@ pub fn internal(py: Python<'_>, panic: &(dyn Any + Send)) -> PyErr {
     exception(py, "InternalError", (format!("a fault of nbc itself: {text}"),))
 }
 
-/// The exception for a swarm in which a robot failed.
 pub fn robot_fault(py: Python<'_>, fault: &nbc::RobotFault) -> PyErr {
     exception(py, "RobotFault", (fault.to_string(),))
 }
 
-/// The exception for an interrupted call with a partial result.
 pub fn interrupted(py: Python<'_>, partial: Bound<'_, PyAny>) -> PyErr {
     exception(py, "Interrupted", (partial,))
 }
 
-/// `ValueError`.
 pub fn bad_value(message: impl Into<String>) -> PyErr {
     PyValueError::new_err(message.into())
 }

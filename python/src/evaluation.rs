@@ -15,7 +15,6 @@ use crate::work::{self, Watch, at_once};
 /// Bodies that are evaluated in one go, so that an interrupt keeps the results of those before.
 const GROUP: usize = 256;
 
-/// The word for an outcome.
 fn word(outcome: &CandidateOutcome) -> &'static str {
     match outcome {
         CandidateOutcome::Measured(_) => "measured",
@@ -46,7 +45,6 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// None yet.
     pub fn new(evolution: &nbc::Evolution) -> Self {
         Self {
             descriptor: Descriptor::new(evolution),
@@ -62,7 +60,6 @@ impl Rows {
         }
     }
 
-    /// Adds the outcome of a body.
     pub fn push(&mut self, body: &Body, outcome: &CandidateOutcome) {
         self.words.push(word(outcome));
         match outcome {
@@ -78,7 +75,6 @@ impl Rows {
         }
     }
 
-    /// Adds a body that is invalid.
     fn push_invalid(&mut self, reason: String) {
         self.errors.push((self.words.len(), reason));
         self.words.push("invalid");
@@ -93,7 +89,6 @@ impl Rows {
         self.endings.push(ending);
     }
 
-    /// The rows as arrays.
     pub fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
         let (count, results) = (self.words.len(), PyDict::new(py));
         results.set_item("outcome", self.words)?;
@@ -143,7 +138,6 @@ pub fn outcomes(
     words.iter().enumerate().map(outcome).collect()
 }
 
-/// Bodies to be evaluated by an evolution.
 struct Examination {
     batch: Batch,
     evolution: nbc::Evolution,

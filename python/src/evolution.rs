@@ -1,12 +1,11 @@
 //! Declarations of evolutions.
 
-use nbc::{Axis, Count, MemoryWorld, Palette, Session};
+use nbc::{Axis, MemoryWorld, Palette, Session};
 use pyo3::prelude::*;
 
 use crate::errors::{bad_value, diagnosed, without_place};
 use crate::work::at_once;
 
-/// A declared evolution.
 #[pyclass(frozen)]
 pub struct Evolution(pub nbc::Evolution);
 
@@ -24,19 +23,16 @@ impl Evolution {
         })
     }
 
-    /// The declaration of `to_json`.
     #[staticmethod]
     fn from_json(text: &str) -> PyResult<Self> {
         let read: Result<nbc::Evolution, _> = serde_json::from_str(text);
         read.map(Self).map_err(|error| bad_value(format!("the text is not a declaration: {error}")))
     }
 
-    /// All fields, as JSON.
     fn to_json(&self) -> String {
         serde_json::to_string(&self.0).expect("an evolution can be written as JSON")
     }
 
-    /// The name and the number of bins of each axis of the archive.
     fn axes(&self) -> Vec<(&'static str, usize)> {
         axes(&self.0.descriptors, &self.0.palette)
     }
@@ -44,17 +40,9 @@ impl Evolution {
 
 /// Name and bins of each axis of an archive with bodies of these materials.
 pub fn axes(axes: &[Axis], palette: &Palette) -> Vec<(&'static str, usize)> {
-    let word = |axis: &Axis| match axis {
-        Axis::Behavior => "behavior",
-        Axis::Class => "class",
-        Axis::Count { of: Count::Voxels, .. } => "voxels",
-        Axis::Count { of: Count::Active, .. } => "active",
-        Axis::Count { of: Count::Sensory, .. } => "sensory",
-    };
-    axes.iter().map(|axis| (word(axis), axis.bins(palette.inputs()))).collect()
+    axes.iter().map(|axis| (axis.word(), axis.bins(palette.inputs()))).collect()
 }
 
-/// The exception for a checkpoint that is not there.
 pub fn no_checkpoint(py: Python<'_>, path: &std::path::Path) -> PyErr {
     match nbc::Checkpoint::open(path) {
         Err(found) => without_place(py, found),

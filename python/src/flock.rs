@@ -55,7 +55,6 @@ impl Setup {
     }
 }
 
-/// The state of the robots of a flock.
 #[pyclass(frozen)]
 pub struct FlockState(Vec<Snapshot>);
 
@@ -100,7 +99,6 @@ impl Flock {
         self.robots.run(py, &watch, None, move |setup, _| setup.advance(&patterns, env_steps))?.finished()
     }
 
-    /// Centers of mass.
     fn centers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let centers: Vec<f64> = self
             .robots
@@ -108,7 +106,6 @@ impl Flock {
         centers.into_pyarray(py).reshape([self.size, 2])
     }
 
-    /// Env steps that each robot has done.
     fn clocks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u32>>> {
         let clocks: Vec<u32> = self
             .robots
@@ -123,7 +120,6 @@ impl Flock {
         })
     }
 
-    /// The points of each robot.
     fn poses<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
         let points: Vec<Vec<[f64; 2]>> = self
             .robots
@@ -141,12 +137,10 @@ impl Flock {
             .with(py, |setup| Ok(setup.robots.lattice(robot).voxels().iter().map(|voxel| voxel.corners).collect()))
     }
 
-    /// The state of all robots.
     fn snapshot(&self, py: Python<'_>) -> PyResult<FlockState> {
         self.robots.with(py, |setup| Ok(FlockState(setup.snapshots())))
     }
 
-    /// Sets all robots to an earlier state.
     fn restore(&self, py: Python<'_>, state: &FlockState) -> PyResult<()> {
         self.robots.with(py, |setup| {
             let points = |snapshot: &Snapshot| snapshot.state.position.len();
@@ -167,7 +161,6 @@ impl Flock {
         self.robots.run(py, &Watch::over(0), None, |_, _| panic!("a test in a thread"))?.finished()
     }
 
-    /// Ends the simulation.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
         self.robots.close(py)
     }

@@ -14,15 +14,12 @@ use crate::described::json;
 use crate::errors::{bad_value, diagnosed};
 use crate::work::{self, Watch};
 
-/// How a circuit is learned, as Python gives it.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct LearningArguments {
-    /// The name of the circuit.
     name: String,
     /// A file of rows, or the name for the text.
     file: String,
-    /// Rows as CSV.
     text: Option<String>,
     output: Option<String>,
     target: Vec<String>,
@@ -36,14 +33,11 @@ pub struct LearningArguments {
 struct LearningResult {
     data: LearningReport,
     text: String,
-    /// The circuit as a program.
     source: Option<String>,
-    /// The confusions, as SVG.
     picture: Option<String>,
 }
 
 impl LearningArguments {
-    /// Reads, learns and writes.
     fn run(self, format: Option<CircuitFormat>, watch: &Watch) -> Result<Option<LearningResult>, Diagnostics> {
         let started = Instant::now();
         let Self { name, file, text, output, target, gates, hold_out, group, seed } = self;

@@ -24,7 +24,6 @@ mod worlds;
 
 use pyo3::prelude::*;
 
-/// The module `nbc._nbc`.
 #[pymodule(gil_used = true)]
 fn _nbc(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;

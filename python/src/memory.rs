@@ -7,7 +7,6 @@ use pyo3::prelude::*;
 /// bodies of 100 x 100 needed 890 at most.
 pub const VOXEL_BYTES: u64 = 1024;
 
-/// `MemoryError` for that many bytes.
 pub fn too_large(bytes: u64, what: &str, hint: &str) -> PyErr {
     let size = match bytes >> 30 {
         0 => format!("{} MiB", (bytes >> 20).max(1)),
@@ -17,18 +16,11 @@ pub fn too_large(bytes: u64, what: &str, hint: &str) -> PyErr {
 }
 
 /// Checks that there is room for that many bytes at this moment.
-///
-/// # Errors
-/// `MemoryError` when there is not.
 pub fn check(bytes: u64, what: &str, hint: &str) -> PyResult<()> {
     let room = usize::try_from(bytes).ok().and_then(|size| Vec::<u8>::new().try_reserve_exact(size).ok());
     room.ok_or_else(|| too_large(bytes, what, hint))
 }
 
-/// An empty list with room for that many values.
-///
-/// # Errors
-/// `MemoryError` when there is no room.
 pub fn reserved<T>(count: usize) -> PyResult<Vec<T>> {
     let mut list = Vec::new();
     let bytes = (count as u64).saturating_mul(size_of::<T>() as u64);

@@ -41,17 +41,11 @@ pub enum ScheduleWords {
 /// What a spell shows.
 #[derive(FromPyObject)]
 pub enum Shown {
-    /// Patterns as digits.
     Pattern(String),
-    /// Rows of pixels.
     Image(Vec<Vec<f64>>),
 }
 
 impl ScheduleWords {
-    /// The schedule of bodies of these materials.
-    ///
-    /// # Errors
-    /// When it is invalid, or does not have what the materials sense.
     pub fn read(self, py: Python<'_>, palette: &Palette) -> PyResult<Schedule> {
         let spells = match self {
             Self::Text(text) if palette.image().is_none() => {
@@ -112,17 +106,13 @@ pub fn check_place(setting: &Setting, body: &Body) -> Result<(), String> {
     setting.check(body).map_err(|error| error.to_string())
 }
 
-/// The setting of these arguments.
 pub fn setting(world_width: usize, start_x: Option<usize>) -> Setting {
     Setting { world_width, start_x, ..Setting::default() }
 }
 
-/// How the simulation of a body ended.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ending {
-    /// At its end.
     Done,
-    /// With a fault.
     Fault(Fault),
     /// Before it began, because the body is invalid.
     Invalid,
@@ -147,7 +137,6 @@ impl Ending {
     }
 }
 
-/// The trials of a call, as Python gives them.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct TrialArguments<'py> {
@@ -173,10 +162,6 @@ struct Experiment {
 }
 
 impl TrialArguments<'_> {
-    /// The experiment.
-    ///
-    /// # Errors
-    /// When a material or the schedule is invalid, and `MemoryError`.
     fn read(self, py: Python<'_>) -> PyResult<Experiment> {
         at_once(py, || {
             let palette = palette(&self.materials)?;
@@ -193,18 +178,15 @@ impl TrialArguments<'_> {
     }
 }
 
-/// What was recorded of a robot.
 struct Recorded {
     trajectory: Trajectory,
     poses: Poses,
 }
 
-/// The poses of a robot.
 #[derive(Clone, Debug, Default)]
 struct Poses {
     /// Its points, frame after frame.
     frames: Vec<f64>,
-    /// Its number of points.
     points: usize,
     /// The points of each voxel, by their number: top left, top right, bottom right, bottom left.
     voxels: Vec<[usize; 4]>,
@@ -221,7 +203,6 @@ impl Experiment {
         self.schedule.steps() as usize + 1
     }
 
-    /// The bodies that are simulated together.
     fn groups(&self) -> Vec<Range<usize>> {
         self.batch.groups((GROUP_STEPS / u64::from(self.schedule.steps()).max(1)).max(1) as usize)
     }
@@ -252,7 +233,6 @@ impl Experiment {
         self.batch.body(i).and_then(|body| check_place(&self.setting, &body).map(|()| body))
     }
 
-    /// Simulates the bodies, some at a time, until the end or an interrupt.
     fn simulate(&self, watch: &Watch) -> PyResult<Results> {
         let simulator = watch.simulator();
         let mut results = Results::new(self)?;
@@ -270,7 +250,6 @@ impl Experiment {
         Ok(results)
     }
 
-    /// Simulates these bodies at once.
     fn run(&self, simulator: &Simulator, watch: &Watch, bodies: Vec<Body>) -> Vec<Recorded> {
         let only = |trajectory| Recorded { trajectory, poses: Poses::default() };
         match self.stride {
@@ -336,7 +315,6 @@ fn record_moment(flock: &dyn nbc::Flock, recorded: &mut [Recorded], is_frame: bo
     }
 }
 
-/// The results of trials, row after row.
 struct Results {
     schedule: Schedule,
     displacement: Vec<f64>,
@@ -347,7 +325,6 @@ struct Results {
     /// Numbers of the longest path.
     longest: usize,
     endings: Vec<Ending>,
-    /// The bodies that are invalid, and why.
     errors: Vec<(usize, String)>,
     /// Numbers of frames of a whole simulation, if poses are kept.
     frames: Option<usize>,
@@ -355,7 +332,6 @@ struct Results {
 }
 
 impl Results {
-    /// None yet, with room for all.
     fn new(experiment: &Experiment) -> PyResult<Self> {
         let (bodies, row) = (experiment.batch.len(), 2 * experiment.moments());
         Ok(Self {
@@ -404,7 +380,6 @@ impl Results {
         }
     }
 
-    /// The results as arrays.
     fn into_python(mut self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
         self.shorten();
         let (robots, spells, moments) = (self.endings.len(), self.schedule.spells.len(), self.row / 2);
@@ -431,7 +406,6 @@ fn poses_array<'py>(py: Python<'py>, poses: &mut Poses, whole: usize) -> PyResul
     frames.into_pyarray(py).reshape([count, poses.points, 2])
 }
 
-/// Adds the env step and the kind of each ending.
 pub fn set_endings(arrays: &Bound<'_, PyDict>, endings: &[Ending]) -> PyResult<()> {
     let (steps, kinds): (Vec<u32>, Vec<&str>) = endings.iter().map(Ending::words).unzip();
     arrays.set_item("fault_step", steps.into_pyarray(arrays.py()))?;

@@ -19,40 +19,18 @@ use crate::evolution::Evolution;
 use crate::work::{self, Watch, at_once};
 use crate::worlds::{self, Sampling};
 
-/// A source file without errors.
 #[pyclass(frozen)]
 pub struct Program {
     session: Arc<Session>,
     checked: Arc<Checked>,
 }
 
-/// A test, as Python sees it.
-#[derive(IntoPyObject)]
-struct DeclaredTest {
-    title: String,
-    circuit: String,
-    file: String,
-    line: usize,
-}
-
-/// A claim, as Python sees it.
-#[derive(IntoPyObject)]
-struct DeclaredClaim {
-    title: String,
-    circuit: String,
-    file: String,
-    line: usize,
-    properties: Vec<String>,
-}
-
-/// A claim with the text of each property.
 #[derive(Serialize)]
 struct DecidedTexts {
     data: DecidedClaim,
     texts: Vec<String>,
 }
 
-/// How a circuit becomes a swarm, as Python gives it.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Compiling {
@@ -101,7 +79,6 @@ impl Program {
         Ok(Self { session: Arc::new(session), checked })
     }
 
-    /// Its warnings, as JSON.
     fn diagnostics(&self, py: Python<'_>) -> PyResult<String> {
         at_once(py, || json(py, &self.checked.findings()))
     }
@@ -112,26 +89,14 @@ impl Program {
         own.map(|circuit| circuit.name.clone()).collect()
     }
 
-    fn tests(&self) -> Vec<DeclaredTest> {
-        let declared = |test: &nbc::CircuitTest| {
-            let nbc::CircuitTest { title, circuit, file, line, .. } = test;
-            DeclaredTest { title: title.clone(), circuit: circuit.to_string(), file: file.clone(), line: *line }
-        };
-        self.checked.program.tests.iter().map(declared).collect()
+    fn tests(&self, py: Python<'_>) -> PyResult<String> {
+        json(py, &self.checked.program.tests)
     }
 
-    fn claims(&self) -> Vec<DeclaredClaim> {
-        let declared = |claim: &nbc::Claim| DeclaredClaim {
-            title: claim.title.clone(),
-            circuit: claim.circuit.to_string(),
-            file: claim.file.clone(),
-            line: claim.line,
-            properties: claim.wanted().map(|property| property.text.clone()).collect(),
-        };
-        self.checked.program.claims.iter().map(declared).collect()
+    fn claims(&self, py: Python<'_>) -> PyResult<String> {
+        json(py, &self.checked.program.claims)
     }
 
-    /// Its evolutions.
     fn evolutions(&self, py: Python<'_>) -> PyResult<Vec<(String, Evolution)>> {
         let started = |evolution: &nbc::Evolution| {
             let started = self.session.started(&self.checked, evolution, &CompileOptions::default().runs);
@@ -150,7 +115,6 @@ impl Program {
         sets.collect()
     }
 
-    /// Compiles a circuit to a swarm.
     fn compile(&self, py: Python<'_>, circuit: Option<String>, compiling: Compiling) -> PyResult<Compiled> {
         let watch = Watch::over(0);
         let options = compiling.options(py, &self.session, &watch)?;
@@ -303,35 +267,25 @@ impl Program {
     }
 }
 
-/// What mapping minimizes.
 pub fn read_objective(word: &str) -> PyResult<MappingObjective> {
-    match word {
-        "area" => Ok(MappingObjective::Area),
-        "delay" => Ok(MappingObjective::Delay),
-        "margin" => Ok(MappingObjective::Margin),
-        "sturdy" => Ok(MappingObjective::Sturdy),
-        word => Err(bad_word("objective", word, &["area", "delay", "margin", "sturdy"])),
-    }
+    use MappingObjective::{Area, Delay, Margin, Sturdy};
+    read_word("objective", word, &[("area", Area), ("delay", Delay), ("margin", Margin), ("sturdy", Sturdy)])
 }
 
-/// How much mapping searches.
 pub fn read_effort(word: &str) -> PyResult<Effort> {
-    match word {
-        "fast" => Ok(Effort::Fast),
-        "normal" => Ok(Effort::Normal),
-        word => Err(bad_word("effort", word, &["fast", "normal"])),
-    }
+    read_word("effort", word, &[("fast", Effort::Fast), ("normal", Effort::Normal)])
 }
 
 fn read_level(word: &str) -> PyResult<Level> {
-    match word {
-        "logic" => Ok(Level::Logic),
-        "physics" => Ok(Level::Physics),
-        word => Err(bad_word("level", word, &["logic", "physics"])),
-    }
+    read_word("level", word, &[Level::Logic, Level::Physics].map(|level| (level.word(), level)))
 }
 
-/// Writes a file, whole or not at all.
+fn read_word<T: Copy>(what: &str, word: &str, known: &[(&str, T)]) -> PyResult<T> {
+    let found = known.iter().find(|(name, _)| *name == word);
+    let words: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
+    found.map(|(_, value)| *value).ok_or_else(|| bad_word(what, word, &words))
+}
+
 #[pyfunction]
 pub fn write_file(py: Python<'_>, path: &str, text: &str) -> PyResult<()> {
     at_once(py, || nbc::write_file(Path::new(path), text.as_bytes()).map_err(|found| without_place(py, found)))

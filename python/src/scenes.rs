@@ -32,18 +32,19 @@ type Object<'py> = (PyReadonlyArray2<'py, u8>, usize, usize, Vec<[usize; 2]>);
 /// Numbers of scenes, or of an object in each of them.
 type Numbers<'py> = PyReadonlyArray1<'py, usize>;
 
-/// Positions and velocities.
-type Moving<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>);
+type Table<'py> = Bound<'py, PyArray2<f64>>;
+
+type Column<'py, T> = Bound<'py, PyArray1<T>>;
+
+type Moving<'py> = (Table<'py>, Table<'py>);
 
 /// The state of a scene: position, earlier position and velocity of each point that moves, env steps, and the fault.
-type Kept<'py> = (Bound<'py, PyArray2<f64>>, u32, Option<(u32, String)>);
+type Kept<'py> = (Table<'py>, u32, Option<(u32, String)>);
 
-/// Scenes, each a world of its own.
 #[pyclass(frozen)]
 pub struct Scenes {
     scenes: Slot<Simulations>,
     size: usize,
-    /// How often a scene was changed.
     changes: AtomicU64,
 }
 
@@ -101,7 +102,6 @@ impl Scenes {
         })
     }
 
-    /// Puts a scene back to its start.
     fn reset(&self, py: Python<'_>, scene: usize) -> PyResult<()> {
         self.changes.fetch_add(1, Ordering::Relaxed);
         self.scenes.with(py, |scenes| {
@@ -131,13 +131,12 @@ impl Scenes {
         Ok((array(py, positions)?, array(py, velocities)?))
     }
 
-    /// How many points an object has in each of these scenes.
     fn counts<'py>(
         &self,
         py: Python<'py>,
         scenes: Numbers<'py>,
         objects: Numbers<'py>,
-    ) -> PyResult<Bound<'py, PyArray1<usize>>> {
+    ) -> PyResult<Column<'py, usize>> {
         let (constants, mut counts) = (Constants::default(), Vec::new());
         self.each(py, &scenes, &objects, |_, scene, object, state| {
             counts.push(scene.positions(object, state, &constants).len());
@@ -147,12 +146,7 @@ impl Scenes {
 
     /// Means over the points of an object in each of these scenes: their place in voxels and in meters, and their
     /// velocity in voxels and in meters per second, x before y.
-    fn centers<'py>(
-        &self,
-        py: Python<'py>,
-        scenes: Numbers<'py>,
-        objects: Numbers<'py>,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn centers<'py>(&self, py: Python<'py>, scenes: Numbers<'py>, objects: Numbers<'py>) -> PyResult<Table<'py>> {
         let constants = Constants::default();
         self.table(py, &scenes, &objects, 8, |scene, object, state, row| {
             let center = scene.center(object, state, &constants);
@@ -169,7 +163,7 @@ impl Scenes {
         scenes: Numbers<'py>,
         objects: Numbers<'py>,
         most: usize,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    ) -> PyResult<Table<'py>> {
         let constants = Constants::default();
         self.table(py, &scenes, &objects, 2 * most, |scene, object, state, row| {
             let middle = scene.center(object, state, &constants).place;
@@ -192,7 +186,7 @@ impl Scenes {
         columns: usize,
         reach: f64,
         is_above: bool,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    ) -> PyResult<Table<'py>> {
         let (constants, sight) = (Constants::default(), Sight { columns, reach, is_above });
         let terrain = terrain.as_array();
         let mut rows = terrain.rows().into_iter();
@@ -209,25 +203,14 @@ impl Scenes {
 
     /// The width and the height of an object in each of these scenes, and the area of the convex hull of its points, in
     /// voxels.
-    fn extents<'py>(
-        &self,
-        py: Python<'py>,
-        scenes: Numbers<'py>,
-        objects: Numbers<'py>,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn extents<'py>(&self, py: Python<'py>, scenes: Numbers<'py>, objects: Numbers<'py>) -> PyResult<Table<'py>> {
         let constants = Constants::default();
         self.table(py, &scenes, &objects, 3, |scene, object, state, row| {
             row.copy_from_slice(&scene.extent(object, state, &constants));
         })
     }
 
-    /// How far an object has turned in each of these scenes.
-    fn turns<'py>(
-        &self,
-        py: Python<'py>,
-        scenes: Numbers<'py>,
-        objects: Numbers<'py>,
-    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    fn turns<'py>(&self, py: Python<'py>, scenes: Numbers<'py>, objects: Numbers<'py>) -> PyResult<Column<'py, f64>> {
         let mut turns = Vec::new();
         self.each(py, &scenes, &objects, |_, scene, object, state| turns.push(scene.turn(object, state)))?;
         Ok(turns.into_pyarray(py))
@@ -239,21 +222,19 @@ impl Scenes {
     }
 
     /// The env step that was abandoned in each scene, 0 for none.
-    fn faults<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u32>>> {
+    fn faults<'py>(&self, py: Python<'py>) -> PyResult<Column<'py, u32>> {
         let steps: Vec<u32> = self.scenes.with(py, |scenes| {
             Ok((0..scenes.len()).map(|n| scenes.fault(n).map_or(0, |fault| fault.env_step)).collect())
         })?;
         Ok(steps.into_pyarray(py))
     }
 
-    /// Env steps that each scene has done.
-    fn clocks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u32>>> {
+    fn clocks<'py>(&self, py: Python<'py>) -> PyResult<Column<'py, u32>> {
         let clocks: Vec<u32> =
             self.scenes.with(py, |scenes| Ok((0..scenes.len()).map(|n| scenes.clock(n)).collect()))?;
         Ok(clocks.into_pyarray(py))
     }
 
-    /// The state of a scene, for `restore`.
     fn state<'py>(&self, py: Python<'py>, scene: usize) -> PyResult<Kept<'py>> {
         let SceneState { state, clock, fault } = self.scenes.with(py, |scenes| {
             known(scenes, scene)?;
@@ -265,7 +246,6 @@ impl Scenes {
         Ok((array(py, all)?, clock, fault.map(|_| (words.0, words.1.to_owned()))))
     }
 
-    /// Sets a scene to an earlier state.
     fn restore(
         &self,
         py: Python<'_>,
@@ -297,7 +277,6 @@ impl Scenes {
         })
     }
 
-    /// Ends the simulation.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
         self.scenes.close(py)
     }
@@ -330,7 +309,7 @@ impl Scenes {
         objects: &Numbers<'py>,
         columns: usize,
         mut fill: impl FnMut(&Scene, usize, &State, &mut [f64]),
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    ) -> PyResult<Table<'py>> {
         let rows = scenes.len();
         let mut values = vec![0.0; rows * columns];
         self.each(py, scenes, objects, |n, scene, object, state| {
@@ -340,7 +319,6 @@ impl Scenes {
     }
 }
 
-/// Checks the number of a scene.
 fn known(scenes: &Simulations, scene: usize) -> PyResult<()> {
     let is_known = scene < scenes.len();
     if is_known { Ok(()) } else { Err(PyIndexError::new_err(format!("there is no scene {scene}"))) }
@@ -372,7 +350,6 @@ fn advance(scenes: &mut Simulations, env_steps: u32, watch: &Watch) {
     }
 }
 
-/// The scene of these objects.
 fn scene(objects: &[Object<'_>], constants: &Constants) -> PyResult<Scene> {
     let read = |(codes, column, row, apart): &Object<'_>| {
         let codes = codes.as_array();
@@ -394,8 +371,7 @@ fn scene(objects: &[Object<'_>], constants: &Constants) -> PyResult<Scene> {
     Ok(Scene::new(&objects, constants))
 }
 
-/// Points as an array of numpy.
-fn array(py: Python<'_>, points: Vec<[f64; 2]>) -> PyResult<Bound<'_, PyArray2<f64>>> {
+fn array(py: Python<'_>, points: Vec<[f64; 2]>) -> PyResult<Table<'_>> {
     let count = points.len();
     points.into_flattened().into_pyarray(py).reshape([count, 2])
 }

@@ -23,7 +23,6 @@ use crate::work::{self, Watch, at_once};
 /// The number of the next search, so that its candidates are known as its own.
 static NEXT: AtomicU64 = AtomicU64::new(0);
 
-/// A MAP-Elites search in progress.
 #[pyclass(frozen)]
 pub struct Search {
     run: Slot<EvolutionRun>,
@@ -31,7 +30,6 @@ pub struct Search {
     number: u64,
 }
 
-/// How robots are chosen, as Python gives it.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Choosing {
@@ -45,7 +43,6 @@ fn read_behavior(word: &str) -> PyResult<Behavior> {
     nbc::behavior(word).map_err(|expected| bad_value(format!("invalid behavior `{word}`; {expected}")))
 }
 
-/// The candidates of a generation.
 #[pyclass(frozen)]
 pub struct Candidates {
     list: Arc<Vec<Candidate>>,
@@ -59,14 +56,12 @@ impl Candidates {
         self.list.len()
     }
 
-    /// Their bodies.
     fn bodies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<u8>>> {
         let (width, height) = self.list.first().map_or((0, 0), |one| (one.body.width(), one.body.height()));
         let codes: Vec<u8> = self.list.iter().flat_map(|one| one.body.codes().to_vec()).collect();
         codes.into_pyarray(py).reshape([self.list.len(), height, width])
     }
 
-    /// The generation that they are of.
     #[getter]
     fn generation(&self) -> u32 {
         self.generation
@@ -106,7 +101,6 @@ impl Search {
         at_once(py, || Ok(Self::of(EvolutionRun::new(&evolution.0, seed))))
     }
 
-    /// The search of a checkpoint.
     #[staticmethod]
     fn resume(py: Python<'_>, path: PathBuf, evolution: &Evolution) -> PyResult<Self> {
         at_once(py, || {
@@ -116,17 +110,14 @@ impl Search {
         })
     }
 
-    /// Writes a checkpoint.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         self.run.with(py, |run| nbc::write_file(&path, &run.checkpoint()).map_err(|found| without_place(py, found)))
     }
 
-    /// The bytes of a checkpoint.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         self.run.with(py, |run| Ok(PyBytes::new(py, &run.checkpoint())))
     }
 
-    /// The search of a checkpoint's bytes.
     #[staticmethod]
     fn from_bytes(py: Python<'_>, bytes: &[u8], evolution: &Evolution) -> PyResult<Self> {
         const NAME: &str = "the copy of a search";
@@ -142,7 +133,6 @@ impl Search {
         evaluation::patterns(&self.evolution)
     }
 
-    /// The candidates of the next generation.
     fn ask(&self, py: Python<'_>) -> PyResult<Candidates> {
         let watch = Watch::over(0);
         let asked = self.run.run(py, &watch, None, |run, _| (run.ask(), run.search().generation()))?;
@@ -168,7 +158,6 @@ impl Search {
         rows.into_python(py)
     }
 
-    /// Takes the outcomes of candidates.
     fn tell(
         &self,
         py: Python<'_>,
@@ -222,7 +211,6 @@ impl Search {
         })
     }
 
-    /// The archive.
     fn archive<'py>(&self, py: Python<'py>) -> PyResult<ArchiveOnAxes<'py>> {
         self.run.with(py, |run| {
             let niches = run.search().archive().niches();
@@ -276,7 +264,6 @@ impl Search {
         Ok(json!({ "robots": robots, "reasons": reasons }).to_string())
     }
 
-    /// Ends the search.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
         self.run.close(py)
     }
@@ -285,7 +272,6 @@ impl Search {
 /// The arrays of an archive, the word and bins of each axis, and the materials of the codes as JSON.
 type ArchiveOnAxes<'py> = (Bound<'py, PyDict>, Vec<(&'static str, usize)>, String);
 
-/// Materials as JSON.
 fn materials(palette: &Palette) -> String {
     serde_json::to_string(palette).expect("materials can be written as JSON")
 }
@@ -305,7 +291,6 @@ pub fn read_checkpoint(py: Python<'_>, path: PathBuf) -> PyResult<ArchiveOnAxes<
     })
 }
 
-/// Elites as arrays, a row for each.
 fn archive<'py, 'a>(
     py: Python<'py>,
     elites: impl Iterator<Item = (&'a NicheKey, &'a Elite)>,

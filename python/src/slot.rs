@@ -13,13 +13,11 @@ use crate::work::{self, Ended, Watch, at_once};
 /// The time from look to look for Ctrl-C.
 const POLL: Duration = Duration::from_millis(20);
 
-/// The place of a value.
 enum Place<T> {
     /// Nobody uses it.
     Here(T),
     /// A call works on it.
     Away,
-    /// It was closed.
     Closed,
     /// The call that worked on it failed.
     Lost,
@@ -65,16 +63,12 @@ impl<T> Drop for Lease<T> {
 }
 
 impl<T: Send + 'static> Slot<T> {
-    /// A value that is called `what`.
     pub fn new(what: &'static str, value: T) -> Self {
         let shared = Shared { place: Mutex::new(Place::Here(value)), returned: Condvar::new() };
         Self { shared: Arc::new(shared), what, process: process::id() }
     }
 
     /// Does long work on the value; see [`work::run`]. Work that could not be waited for puts it back later.
-    ///
-    /// # Errors
-    /// When the value is closed or lost, and as [`work::run`].
     pub fn run<R: Send + 'static>(
         &self,
         py: Python<'_>,
@@ -87,18 +81,12 @@ impl<T: Send + 'static> Slot<T> {
     }
 
     /// Reads or changes the value at once.
-    ///
-    /// # Errors
-    /// When the value is closed or lost, the errors of `work`, and for a fault of the library.
     pub fn with<R>(&self, py: Python<'_>, work: impl FnOnce(&mut T) -> PyResult<R>) -> PyResult<R> {
         let mut lease = self.take(py)?;
         at_once(py, move || work(lease.value.as_mut().expect("a lease has its value")))
     }
 
     /// Drops the value. A closed one stays closed.
-    ///
-    /// # Errors
-    /// When Ctrl-C was pressed while another call worked on it.
     pub fn close(&self, py: Python<'_>) -> PyResult<()> {
         if self.is_closed() {
             return Ok(());
@@ -111,7 +99,6 @@ impl<T: Send + 'static> Slot<T> {
         Ok(())
     }
 
-    /// Whether it was closed.
     pub fn is_closed(&self) -> bool {
         matches!(*self.shared.place(), Place::Closed | Place::Lost)
     }

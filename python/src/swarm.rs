@@ -8,7 +8,6 @@ use crate::errors::{bad_value, robot_fault};
 use crate::slot::Slot;
 use crate::work::Watch;
 
-/// A swarm during its simulation.
 #[pyclass(frozen)]
 pub struct Swarm {
     live: Slot<LiveSwarm>,
@@ -30,7 +29,6 @@ fn check_room(live: &LiveSwarm, cycles: u64) -> PyResult<()> {
 }
 
 impl Swarm {
-    /// A swarm at its start.
     pub fn new(live: LiveSwarm) -> Self {
         let bits = live.trace().inputs.iter().map(|port| port.width).sum();
         Self { live: Slot::new("swarm", live), bits }
@@ -76,7 +74,6 @@ impl Swarm {
         done.finished()?.map_err(|fault| robot_fault(py, &fault))
     }
 
-    /// Cycles done.
     fn cycles(&self, py: Python<'_>) -> PyResult<usize> {
         self.live.with(py, |live| Ok(live.trace().cycles.len()))
     }
@@ -108,12 +105,10 @@ impl Swarm {
         })
     }
 
-    /// The swarm in space and time as SVG.
     fn spacetime(&self, py: Python<'_>) -> PyResult<String> {
         self.live.with(py, |live| Ok(nbc::draw_swarm(live.trace()).finish()))
     }
 
-    /// Ends the simulation.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
         self.live.close(py)
     }

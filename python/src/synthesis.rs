@@ -14,7 +14,6 @@ use crate::errors::{bad_value, diagnosed};
 use crate::program::{read_effort, read_objective};
 use crate::work::{self, Watch};
 
-/// How a circuit is mapped, as Python gives it.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Synthesizing {
@@ -29,7 +28,6 @@ pub struct Synthesizing {
     what_if: Vec<String>,
 }
 
-/// What a synthesis needs.
 struct Job {
     files: Vec<PathBuf>,
     output: Option<(PathBuf, CircuitFormat)>,
@@ -67,7 +65,6 @@ impl Synthesizing {
 }
 
 impl Job {
-    /// Reads, maps, proves and writes.
     fn run(self) -> Result<(SynthesisReport, Diagnostics), Diagnostics> {
         let started = Instant::now();
         let (path, others) = self.files.split_first().expect("there is a file");

@@ -35,7 +35,6 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// A watch over that much work.
     pub fn over(all: u64) -> Arc<Self> {
         Arc::new(Self { all: AtomicU64::new(all), ..Self::default() })
     }
@@ -56,18 +55,15 @@ impl Watch {
         Simulator::monitored(self.monitor.clone())
     }
 
-    /// Ends the work soon.
     fn stop(&self) {
         self.monitor.stop();
         self.cancel.raise();
     }
 
-    /// Whether the work is to end.
     pub fn is_stopped(&self) -> bool {
         self.monitor.is_stopped()
     }
 
-    /// An observer for the calls of a session.
     pub fn observer(&self) -> impl Observer + '_ {
         Observing(self)
     }
@@ -78,7 +74,6 @@ impl Watch {
         self.all.store(all, Ordering::Relaxed);
     }
 
-    /// Counts work that is done.
     pub fn add(&self, more: u64) {
         self.done.fetch_add(more, Ordering::Relaxed);
     }
@@ -88,7 +83,6 @@ impl Watch {
         Part { watch: self, done: 0 }
     }
 
-    /// Parts done, and all parts.
     fn progress(&self) -> (u64, u64) {
         let env_steps = if self.has_parts { 0 } else { self.monitor.env_steps() };
         (self.done.load(Ordering::Relaxed).max(env_steps), self.all.load(Ordering::Relaxed))
@@ -124,19 +118,13 @@ impl Observer for Part<'_> {
     }
 }
 
-/// How work ended.
 pub enum Ended<T> {
-    /// It was done.
     Done(T),
     /// It was interrupted. It stops soon, and then sends its partial result.
     Interrupted(PyErr, Receiver<thread::Result<T>>),
 }
 
 impl<T: Send> Ended<T> {
-    /// The result.
-    ///
-    /// # Errors
-    /// The exception of the interrupt, at once.
     pub fn finished(self) -> PyResult<T> {
         match self {
             Self::Done(value) => Ok(value),
@@ -145,9 +133,6 @@ impl<T: Send> Ended<T> {
     }
 
     /// The result as Python has it.
-    ///
-    /// # Errors
-    /// Those of `show`; after Ctrl-C, `nbc.Interrupted` with the partial result. Another Ctrl-C does not wait for it.
     pub fn or_partial<'py, R: IntoPyObject<'py>>(
         self,
         py: Python<'py>,
@@ -177,17 +162,11 @@ impl<T: Send> Ended<T> {
 }
 
 /// Does short work on the caller's thread.
-///
-/// # Errors
-/// Those of the work, and for a fault of the library.
 pub fn at_once<T>(py: Python<'_>, work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(internal(py, &*panic)))
 }
 
 /// Does the work. `progress`, if it is one, is called with parts done and all parts.
-///
-/// # Errors
-/// When the threads cannot be started, and for a fault of the library.
 pub fn run<T: Send + 'static>(
     py: Python<'_>,
     watch: &Arc<Watch>,

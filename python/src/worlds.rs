@@ -7,25 +7,19 @@ use rayon::prelude::*;
 use crate::errors::bad_value;
 use crate::work::Watch;
 
-/// The worlds of a sample, as Python gives them.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Sampling {
     vary: Vec<String>,
     times: Vec<f64>,
-    /// The number of worlds.
     pub worlds: usize,
-    /// Their seed.
     pub seed: u64,
 }
 
 impl Sampling {
     /// How much the worlds vary; each is a sample of its own.
-    ///
-    /// # Errors
-    /// `ValueError` when changes are invalid.
     pub fn vary(&self) -> PyResult<Vec<Variation>> {
-        self.vary.iter().map(|text| text.parse().map_err(|error| bad_value(format!("{error}")))).collect()
+        self.vary.iter().map(|text| text.parse().map_err(|error: String| bad_value(error))).collect()
     }
 }
 

@@ -94,7 +94,7 @@ fn a_test_fails_with_the_robot_even_where_it_expects_what_no_motion_would_be() {
 fn a_row_before_the_fault_keeps_its_verdict() {
     // Springs that become unstable in the third row only, because the robot is held in the others.
     let run = tested(&BOOM.replace("stiffness: 10", "stiffness: 1")).remove(0);
-    assert!(run.verdict.passed && run.verdict.fault().is_none());
+    assert!(run.verdict.passed && run.verdict.fault.is_none());
     let mut trace = run.swarm.unwrap().trace;
     let fault = nbc::Fault { env_step: 84 * 5 + 1, kind: nbc::FaultKind::NonFinite };
     trace.robots[0].fault = Some(fault);

@@ -2,7 +2,7 @@
 
 import type { Dial, Line } from "./line";
 import { Observable } from "./observable";
-import type { PlayEvent, Refusal, ServerMessage } from "./protocol";
+import type { PlayEvent, ServerMessage } from "./protocol";
 import { RequestError, type Fields, type Result, type Verb } from "./request";
 
 export type ConnectionState = "connecting" | "open" | "lost";
@@ -54,7 +54,7 @@ export class Connection {
     const id = this.#next++;
     return new Promise((resolve, reject) => {
       if (this.state.value !== "open") {
-        reject(new RequestError("the connection to the program is lost", LOST, null, []));
+        reject(new RequestError({ message: "the connection to the program is lost", code: LOST }));
         return;
       }
       this.#pending.set(id, { ...options, resolve: resolve as (result: never) => void, reject });
@@ -79,7 +79,7 @@ export class Connection {
     if (pending !== undefined) {
       this.#pending.delete(id);
       this.#send({ id: this.#next++, do: "cancel", of: id });
-      pending.reject(new RequestError("it was cancelled", CANCELLED, null, []));
+      pending.reject(new RequestError({ message: "it was cancelled", code: CANCELLED }));
     }
   }
 
@@ -97,7 +97,7 @@ export class Connection {
       const pending = this.#pending.get(message.id);
       this.#pending.delete(message.id);
       if ("error" in message) {
-        pending?.reject(refused(message.error));
+        pending?.reject(new RequestError(message.error));
       } else {
         pending?.resolve(message.ok as never);
       }
@@ -108,14 +108,10 @@ export class Connection {
     const pending = [...this.#pending.values()];
     this.#pending.clear();
     for (const { reject } of pending) {
-      reject(new RequestError("the connection to the program is lost", LOST, null, []));
+      reject(new RequestError({ message: "the connection to the program is lost", code: LOST }));
     }
     this.state.set("lost");
     this.#timer = window.setTimeout(() => this.open(), this.#wait);
     this.#wait = Math.min(LONGEST_WAIT, this.#wait * 2);
   }
-}
-
-function refused({ message, code, help, instead, diagnostics }: Refusal): RequestError {
-  return new RequestError(message, code, help, diagnostics, instead);
 }

@@ -1,17 +1,22 @@
 // Generated: NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol
 // docs/play-protocol.md describes the messages; the other types are of results.
 
+export type ArchiveAxis = {
+  bins: number,
+  name: string,
+};
+
 /** The niches of an archive that have changed in a generation. */
 export type ArchiveChange = {
-  axes: Array<AxisEntry>,
+  axes: Array<ArchiveAxis>,
   evaluations: number,
   generation: number,
   id: number,
-  niches: Array<NicheEntry>,
+  niches: Array<EliteData>,
 };
 
-/** The name of an axis and its number of bins. */
-export type AxisEntry = [string, number];
+/** The directions under each pattern of two or three stimuli, counted as binary numbers with stimulus 1 first, written as letters: `RRRL` for the patterns 00, 01, 10, 11 (paper, section 3), eight for three stimuli. */
+export type Behavior = string;
 
 /** The character of a robot as a gate, measured over switches of its inputs (docs/physics.md 14). */
 export type Character = {
@@ -43,11 +48,16 @@ export type CircuitEntry = {
   swarms: Array<string>,
 };
 
-export type ClaimEntry = {
+/** A declared claim. The source is needed for messages only. */
+export type Claim = {
+  /** A circuit with values for its parameters. */
   circuit: string,
-  index: number,
+  file: string,
+  inputs: Array<Column>,
   line: number,
-  properties: Array<PropertyEntry>,
+  outputs: Array<Column>,
+  /** As data, those that are to be proved. */
+  properties: Array<Property>,
   title: string,
 };
 
@@ -138,6 +148,36 @@ export type DecidedProperty = {
   witness?: string,
 };
 
+/** Displacements in voxels, one for each pattern of two or three stimuli, counted as binary numbers with stimulus 1 first. */
+export type Displacements = Array<number>;
+
+export type EliteData = {
+  /** Voxels that swell with time. */
+  actuators: number,
+  behavior: Behavior,
+  /** Rows of material codes, top row first; 0 is empty. */
+  body: Array<string>,
+  displacement: Displacements,
+  /** Bodies tried up to and with it. */
+  evaluations: number,
+  /** The two fitnesses of the run's objective. */
+  fitness: [number, number],
+  /** The gate, such as `nand`. */
+  function: string,
+  /** The generation in which it was born. */
+  generation: number,
+  height: number,
+  /** The materials of the codes from 1 on, if they are not the paper's. */
+  materials?: Palette,
+  /** The bin on each axis, from 0. */
+  niche: Array<number>,
+  seed: number,
+  /** Voxels that respond to a stimulus. */
+  sensors: number,
+  voxels: number,
+  width: number,
+};
+
 export type EncodedGait = {
   cycles: number,
   /** Poses in a cycle. */
@@ -147,7 +187,7 @@ export type EncodedGait = {
 };
 
 export type EvolutionData = {
-  axes: Array<PageAxis>,
+  axes: Array<ArchiveAxis>,
   behaviors: Array<PageBehavior>,
   /** Cycles under each of them. */
   cycles: number,
@@ -246,6 +286,9 @@ export type Greeting = {
   version: string,
 };
 
+/** The numbers of rows and of columns of an image. As data it is a list of both. */
+export type ImageSize = [number, number];
+
 export type KeepRequest = {
   body: Array<string>,
   name: string,
@@ -337,21 +380,27 @@ export type ListingRow = {
   text: string,
 };
 
-export type NicheEntry = {
-  body: Array<string>,
-  fitness: [number, number],
-  function: string,
-  letters: string,
-  /** The bin on each axis. */
-  place: Array<number>,
+/** A declared material: a name and a response. */
+export type Material = {
+  /** Width of a sensor without its stimulus. */
+  absent?: number,
+  /** Rows and columns of the image that a sensor senses. */
+  image?: ImageSize,
+  kind: Word,
+  name: string,
+  /** Of an actuator, in env steps. */
+  period?: number,
+  /** Of an actuator, in degrees. */
+  phase?: number,
+  /** Width of a sensor with its stimulus. */
+  present?: number,
+  /** Least and greatest width of an actuator. */
+  range?: [number, number],
+  /** Of a sensor, counted from 1. */
+  stimulus?: number,
 };
 
 export type Nothing = Record<string, never>;
-
-export type PageAxis = {
-  bins: number,
-  word: string,
-};
 
 export type PageBehavior = {
   function: string,
@@ -371,16 +420,36 @@ export type PageCell = {
 /** The best of a niche; there may have been no room for its gait. */
 export type PageElite = {
   about: Array<[string, string]>,
-  behavior: string,
+  /** Voxels that swell with time. */
+  actuators: number,
+  behavior: Behavior,
+  /** Rows of material codes, top row first; 0 is empty. */
+  body: Array<string>,
   color: string,
+  displacement: Displacements,
+  /** Bodies tried up to and with it. */
+  evaluations: number,
+  /** The two fitnesses of the run's objective. */
   fitness: [number, number],
+  /** The gate, such as `nand`. */
   function: string,
   gait?: RecordedBody,
-  /** Its bin of each axis. */
+  /** The generation in which it was born. */
+  generation: number,
+  height: number,
+  /** The materials of the codes from 1 on, if they are not the paper's. */
+  materials?: Palette,
+  /** The bin on each axis, from 0. */
   niche: Array<number>,
-  /** Columns and rows. */
-  size: [number, number],
+  seed: number,
+  /** Voxels that respond to a stimulus. */
+  sensors: number,
+  voxels: number,
+  width: number,
 };
+
+/** The materials of a body: code 0 is empty, code `k` is the `k`-th material.  Palettes are equal when their materials have the same names and, to the bit, the same numbers. */
+export type Palette = Array<Material>;
 
 export type PaletteEntry = {
   about: string,
@@ -428,14 +497,14 @@ export type ProbeReport = {
 
 export type ProgramReport = {
   circuits: Array<CircuitEntry>,
-  claims: Array<ClaimEntry>,
+  claims: Array<Claim>,
   diagnostics: Array<Finding>,
   errors: number,
   tests: Array<TestEntry>,
   written: WrittenProgram,
 };
 
-export type PropertyEntry = {
+export type Property = {
   line: number,
   property: string,
 };
@@ -513,6 +582,7 @@ export type Request = { id: number } & ({ do: "hello" }
   | { do: "replay", path: string, row: number, swarm?: string | null, test: ChosenTest, world?: string | null }
   | { bits: string, do: "inputs" }
   | { bit: number, do: "clock", half?: number | null }
+  | { do: "settle", rows: Array<string> }
   | { do: "run", speed?: number | null }
   | { do: "pause" }
   | { cycles: number, do: "step" }
@@ -532,22 +602,33 @@ export type Request = { id: number } & ({ do: "hello" }
 
 export type RobotCard = {
   about: string,
-  /** The rows from the top, a material's code a character. */
+  behavior: string,
   body: Array<string>,
+  /** Columns and rows, such as `5x5`. */
+  box: string,
+  /** Cycles for which a pattern must be held. */
   clock: number,
-  errors: number,
+  /** The share of random switches with a wrong output. */
+  error_rate: number,
   function: string,
-  height: number,
-  letters: string,
+  /** The share of wrong cycles in which the output should not change. */
+  glitch_rate: number,
+  /** The smallest displacement in voxels per cycle. */
   margin: number,
+  /** The materials of the codes, if they are not the paper's. */
+  materials?: Palette,
   name: string,
   /** Whether it is of the materials that can be painted, so that it can be probed. */
   painted: boolean,
   points: number,
+  /** How far worlds may differ before it makes errors, if that was measured. */
+  radius?: SafeRadius,
+  /** The longest settle time in cycles; none if it was not measured. */
+  settle?: number,
   shipped: boolean,
+  switches: number,
   /** The numbers of the corner points around each voxel, and its index in the looks. */
   voxels: Array<[number, number, number, number, number]>,
-  width: number,
 };
 
 export type RobotCards = {
@@ -599,6 +680,8 @@ export type RowVerdict = {
   thread?: number,
   /** How often it was repeated, if that is as often as its `until` permits and it still waited for its value. */
   until?: number,
+  /** How it failed, in lines; none if it passed. */
+  words?: string,
 };
 
 export type RunData = {
@@ -635,6 +718,7 @@ export type ServerMessage = { id: number } & ({ ok: Greeting, to: "hello" }
   | { ok: ProgramReport, to: "program" }
   | { ok: SwarmAnswer, to: "compile" }
   | { ok: SwarmAnswer, to: "replay" }
+  | { ok: SettledOutputs, to: "settle" }
   | { ok: TestAnswer, to: "test" }
   | { ok: DecidedClaim, to: "prove" }
   | { ok: RobotCards, to: "robots" }
@@ -647,6 +731,11 @@ export type ServerMessage = { id: number } & ({ ok: Greeting, to: "hello" }
   | { id: number, ok: Nothing }
   | { error: Refusal, id: number }
   | { id: number, progress: [number, number] } | PlayEvent;
+
+export type SettledOutputs = {
+  /** For each row of inputs; none of a swarm with a state. */
+  outputs: Array<string> | null,
+};
 
 /** The severity of a diagnostic. */
 export type Severity = "error" | "warning";
@@ -928,6 +1017,8 @@ export type WeakRobot = {
   nets: Array<string>,
   robot: string,
 };
+
+export type Word = "rigid" | "soft" | "actuator" | "sensor";
 
 export type WrittenProgram = {
   /** The lines of its tests and claims. */

@@ -136,10 +136,7 @@ export class TakeAway {
       fill(this.#status, `${name} is ready`);
     } catch (error) {
       const known = error instanceof RequestError;
-      fill(
-        this.#status,
-        known && error.code !== CANCELLED ? `${error.message}${error.help ? `; ${error.help}` : ""}` : "",
-      );
+      fill(this.#status, known && error.code !== CANCELLED ? error.words : "");
     }
     if (this.#work === work) {
       this.#work = null;

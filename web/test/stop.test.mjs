@@ -89,7 +89,7 @@ test("digits can be drawn on soon, and what they are is said before the robots s
   for (const pixel of [60, 59, 52, 51, 44, 43, 36, 35, 28, 27, 20, 19, 12, 11, 4, 3]) {
     await page.locator(`[data-pixel="pixels[${pixel}]"]`).click();
   }
-  assert.match(await said(), /^soon digit = 1$/);
+  await page.getByText(/^soon digit = 1$/).waitFor();
   assert.notEqual(await said(), before);
   await page.leave();
 });

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import type { NicheEntry } from "../src/protocol";
+import type { EliteData } from "../src/protocol";
 import { GATES, gateName, gateOf, lettersOf, patterns, truthTable } from "../src/gate";
 import { decodeGait, outlineAt } from "../src/robots/gait";
 import { Archive } from "../src/robots/archive";
@@ -43,12 +43,13 @@ test("gates of three stimuli have eight outputs", () => {
 
 test("niches of an archive open and improve", () => {
   const archive = new Archive();
-  const niche: NicheEntry = { place: [1, 0, 14], fitness: [1, 0.5], body: ["3"], letters: "RRRL", function: "nand" };
+  const known = { niche: [1, 0, 14], fitness: [1, 0.5], body: ["3"], behavior: "RRRL", function: "nand" };
+  const niche = known as EliteData;
   const event = { event: "archive" as const, id: 1, generation: 1, evaluations: 8, niches: [niche] };
-  const axes: [string, number][] = [
-    ["voxels", 3],
-    ["active", 3],
-    ["behavior", 16],
+  const axes = [
+    { name: "voxels", bins: 3 },
+    { name: "active", bins: 3 },
+    { name: "behavior", bins: 16 },
   ];
   archive.merge({ ...event, axes });
   archive.merge({ ...event, axes, generation: 2, niches: [{ ...niche, fitness: [1, 0.75] }] });
@@ -59,8 +60,8 @@ test("niches of an archive open and improve", () => {
   archive.merge({
     ...event,
     axes: [
-      ["behavior", 16],
-      ["active", 8],
+      { name: "behavior", bins: 16 },
+      { name: "active", bins: 8 },
     ],
   });
   assert.deepEqual(archive.split(), { across: [1], layers: [0] });

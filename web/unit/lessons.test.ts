@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import type { LessonCheck, LessonEntry, NicheEntry, WrittenProgram } from "../src/protocol";
+import type { EliteData, LessonCheck, LessonEntry, WrittenProgram } from "../src/protocol";
 import { holds } from "../src/learn/checks";
 import { Progress } from "../src/learn/progress";
 import { isLessonPath, lessonAddress } from "../src/learn/lessons";
@@ -140,7 +140,7 @@ test("a step says why it does not count", () => {
 
 test("a search counts at once, and only the body of a niche that was clicked", () => {
   const body = ["343"];
-  const niche: NicheEntry = { place: [0], fitness: [1, 1], body, letters: "RRRL", function: "nand" };
+  const niche = { niche: [0], fitness: [1, 1], body, behavior: "RRRL", function: "nand" } as EliteData;
   const niches = Array.from({ length: 5 }, () => niche);
   const old = { running: false, niches, chosen: null };
   assert.equal(is({ is: "evolving" }, situation([], { search: old })), false);

@@ -3,8 +3,8 @@ import { test } from "node:test";
 
 import { matches } from "../src/robots/match";
 
-const NAND = { name: "nand", function: "nand", letters: "RRRL" };
-const MUX = { name: "choose", function: "mux", letters: "LRLRLLRR" };
+const NAND = { name: "nand", function: "nand", behavior: "RRRL" };
+const MUX = { name: "choose", function: "mux", behavior: "LRLRLLRR" };
 
 test("robots are found by name, gate and letters, in any case", () => {
   assert.ok(matches(NAND, "") && matches(NAND, "  NAND ") && matches(NAND, "rrrl") && matches(NAND, "a NAND b"));

@@ -37,6 +37,11 @@ impl Settled {
         })
     }
 
+    /// Whether a row may depend on those before it.
+    pub fn has_state(&self) -> bool {
+        matches!(self.0, Way::Steps(_))
+    }
+
     pub fn apply(&mut self, rows: &[&[bool]]) -> Vec<SettledRow> {
         match &mut self.0 {
             Way::Words { network, values } => {

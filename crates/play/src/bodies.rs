@@ -12,7 +12,7 @@ use nbc_base::model::{
     Provenance, Robot, Schedule, Setting,
 };
 use nbc_circuit::formats::is_word;
-use nbc_session::report::{self, Looks, Stage, describe_material};
+use nbc_session::report::{self, Listing, Looks, Stage, describe_material};
 use nbc_session::store;
 use nbc_session::{Checked, CompileOptions, Session};
 use nbc_swarm::evolve;
@@ -43,18 +43,10 @@ pub(super) fn robots(session: &Session, checked: Option<&Checked>) -> Result<Rob
 fn card(robot: &Robot, shipped: bool, looks: &Looks, painted: &Palette) -> RobotCard {
     let recorded = stage(&robot.body, Pattern::PAIRS[0], 0).record(1).robots.swap_remove(0);
     RobotCard {
-        name: robot.name.clone(),
-        function: robot.function().name(),
-        letters: robot.behavior.to_string(),
+        listing: Listing::of(robot),
         about: report::describe_robot(robot),
-        body: robot.body.rows(),
-        width: robot.body.width(),
-        height: robot.body.height(),
         voxels: report::voxel_data(&recorded, &robot.body, looks),
         points: recorded.points,
-        clock: robot.character.clock,
-        margin: robot.character.margin,
-        errors: robot.character.error_rate,
         shipped,
         painted: robot.body.materials().all(|(code, material)| {
             painted.materials().get(usize::from(code) - 1).is_some_and(|known| known == material)
@@ -147,21 +139,13 @@ pub(super) fn keep(request: &KeepRequest, files: &PageFiles, is_shared: bool, jo
 fn robot_file(name: &str, body: Body, job: &Job) -> Result<String, Refused> {
     let stopped = |fault: Fault| job.check().err().unwrap_or_else(|| Refused::fault(fault));
     let measured = measure(&job.simulator(), &body).map_err(stopped)?;
-    let provenance = Provenance {
-        program: nbc_base::PROGRAM.to_owned(),
-        version: nbc_base::VERSION.to_owned(),
-        evolution: "play".to_owned(),
-        seed: 0,
-        generation: 0,
-        evaluations: 0,
-    };
     let robot = Robot {
         name: name.to_owned(),
         behavior: measured.behavior,
         body,
         displacement: measured.displacement,
         character: measured.character,
-        provenance,
+        provenance: Provenance::unevolved("play"),
         genotype: None,
     };
     Ok(store::print_robot(&robot))

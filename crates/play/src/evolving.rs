@@ -5,14 +5,14 @@ use std::sync::Arc;
 use crate::bodies;
 use crate::crew_part::{CrewPart, CrewResult, GivenParts};
 use crate::jobs::{Job, PortionEnd};
-use crate::message::{ArchiveChange, AxisEntry, EvolutionEnd, NicheEntry, PlayEvent, RequestResult};
+use crate::message::{ArchiveChange, EvolutionEnd, PlayEvent, RequestResult};
 use crate::refusal::Refused;
 use crate::request::EvolveRequest;
 use crate::shell::{Crew, Shell};
-use nbc_base::model::{Axis, Body};
-use nbc_session::report::axis_word;
+use nbc_base::model::Body;
+use nbc_session::report::{ArchiveAxis, EliteData};
 use nbc_session::{BodySearch, Observer};
-use nbc_swarm::evolve::{Elite, NicheKey, Scores};
+use nbc_swarm::evolve::{NicheKey, Scores};
 
 const SIDES: std::ops::RangeInclusive<usize> = 2..=10;
 const MOST_GENERATIONS: u32 = 1000;
@@ -91,21 +91,13 @@ impl SharedSearch {
 fn change(search: &BodySearch, id: u64, changed: &[NicheKey]) -> ArchiveChange {
     let search = search.search();
     let evolution = search.evolution();
-    let axis = |&axis: &Axis| AxisEntry(axis_word(axis), axis.bins(evolution.palette.inputs()));
-    let niche = |(key, elite): (&NicheKey, &Elite)| NicheEntry {
-        place: key.0.clone(),
-        fitness: elite.fitness,
-        body: elite.body.rows(),
-        letters: elite.behavior.to_string(),
-        function: elite.behavior.function().name(),
-    };
     // A niche of this search has one elite.
-    let niches = search.archive().niches().map(|(key, elites)| (key, &elites[0]));
+    let changed = search.archive().niches().filter(|(key, _)| changed.contains(key));
     ArchiveChange {
         id,
         generation: search.generation(),
-        axes: evolution.descriptors.iter().map(axis).collect(),
-        niches: niches.filter(|(key, _)| changed.contains(key)).map(niche).collect(),
+        axes: ArchiveAxis::all(&evolution.descriptors, evolution.palette.inputs()),
+        niches: changed.map(|(key, elites)| EliteData::of(search.seed(), key, &elites[0])).collect(),
         evaluations: search.counts().evaluations,
     }
 }

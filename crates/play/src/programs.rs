@@ -6,8 +6,8 @@ use std::sync::Arc;
 use crate::history::FRAMES;
 use crate::jobs::{Job, JobWork, PortionEnd};
 use crate::message::{
-    CircuitEntry, ClaimEntry, ProgramReport, RequestResult, ShownSwarm, ShownWaves, SwarmAnswer, SwarmRobot,
-    TestAnswer, TestEntry, TestRowEntry, WaveRegister, WrittenProgram, listed,
+    CircuitEntry, ProgramReport, RequestResult, ShownSwarm, ShownWaves, SwarmAnswer, SwarmRobot, TestAnswer, TestEntry,
+    TestRowEntry, WaveRegister, WrittenProgram, listed,
 };
 use crate::refusal::Refused;
 use crate::runner::{LoadingSwarm, RunningSwarm};
@@ -43,7 +43,7 @@ pub(super) fn program(checked: &Checked) -> ProgramReport {
         diagnostics: checked.findings(),
         circuits: circuits.collect(),
         tests: checked.program.tests.iter().enumerate().map(|(i, one)| test(i, one)).collect(),
-        claims: checked.program.claims.iter().enumerate().map(|(i, one)| ClaimEntry::of(i, one)).collect(),
+        claims: checked.program.claims.clone(),
         written: checked
             .file
             .map_or_else(WrittenProgram::default, |file| WrittenProgram::of(&checked.sources.file(file).text)),

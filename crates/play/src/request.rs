@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use crate::message::ClassPlace;
-use crate::runner::Change;
+use crate::runner::{Change, bits_of};
 use nbc_swarm::Level;
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -61,6 +61,9 @@ pub(super) enum Verb {
     Clock {
         bit: usize,
         half: Option<u32>,
+    },
+    Settle {
+        rows: Vec<String>,
     },
     Run {
         speed: Option<f64>,
@@ -168,7 +171,7 @@ pub(super) enum TakeKind {
 impl Verb {
     pub(super) fn change(self) -> Result<Change, Self> {
         Ok(match self {
-            Self::Inputs { bits } => Change::Inputs(bits.bytes().map(|digit| digit == b'1').collect()),
+            Self::Inputs { bits } => Change::Inputs(bits_of(&bits)),
             Self::Clock { bit, half } => Change::Clock { bit, half },
             Self::Run { speed } => Change::Run { speed },
             Self::Pause => Change::Pause,

@@ -9,11 +9,12 @@ use core::time::Duration;
 use crate::frame::SwarmFrame;
 use crate::history::{FRAMES, LoggedCycle, MEMORY, Poses, SwarmHistory};
 use crate::jobs::{Job, PortionEnd};
-use crate::message::{PlayEvent, RequestResult};
+use crate::message::{PlayEvent, RequestResult, SettledOutputs};
 use crate::outbox::Outbox;
 use crate::refusal::Refused;
 use crate::shared_cycle::SharedCycles;
 use crate::shell::Shell;
+use nbc_circuit::{Settled, SettledRow};
 use nbc_session::{Compiled, CycleRunner, Excerpt, Observer, Session};
 use nbc_swarm::{LiveSwarm, RobotFault, RobotTrace, SwarmSnapshot};
 
@@ -67,6 +68,10 @@ pub(super) enum Change {
     View { robots: Vec<usize> },
 }
 
+pub(super) fn bits_of(digits: &str) -> Vec<bool> {
+    digits.bytes().map(|digit| digit == b'1').collect()
+}
+
 pub(super) struct Runner {
     outbox: Outbox,
     shown: Option<RunningSwarm>,
@@ -83,6 +88,7 @@ struct Pace {
 pub(super) struct RunningSwarm {
     number: u32,
     compiled: Compiled,
+    settled: Settled,
     swarm: LiveSwarm,
     history: SwarmHistory,
     start: SwarmSnapshot,
@@ -135,6 +141,10 @@ impl Runner {
         self.outbox.done(id, done);
     }
 
+    pub(super) fn settle(&mut self, rows: &[String]) -> Result<SettledOutputs, Refused> {
+        self.shown.as_mut().ok_or(Refused::NoSwarm)?.settle(rows)
+    }
+
     pub(super) fn excerpt(&self, cycles: u32) -> Result<Excerpt, Refused> {
         self.shown.as_ref().map(|shown| shown.excerpt(cycles)).ok_or(Refused::NoSwarm)
     }
@@ -179,6 +189,7 @@ impl RunningSwarm {
             sent_before: 0,
             is_new: true,
             last_frame: None,
+            settled: Settled::new(&compiled.mapping.source),
             world: compiled.assembly.setting(Session::LIVE_CYCLES).world_width as f64,
             compiled,
             swarm,
@@ -355,6 +366,24 @@ impl RunningSwarm {
         }
         self.clock = self.clock.map(|(bit, half, _)| (bit, half, cycle));
         Ok(())
+    }
+
+    /// What the outputs are once all robots have settled.
+    fn settle(&mut self, rows: &[String]) -> Result<SettledOutputs, Refused> {
+        let rows: Vec<Vec<bool>> = rows.iter().map(|row| bits_of(row)).collect();
+        if rows.iter().any(|row| row.len() != self.inputs.len()) {
+            return Err(Refused::Bits { expected: self.inputs.len() });
+        }
+        if self.settled.has_state() {
+            return Ok(SettledOutputs { outputs: None });
+        }
+        let mut outputs = Vec::new();
+        for rows in rows.chunks(Settled::ROWS) {
+            let rows: Vec<&[bool]> = rows.iter().map(Vec::as_slice).collect();
+            let digits = |row: &SettledRow| row.outputs.iter().map(|&bit| if bit { '1' } else { '0' }).collect();
+            outputs.extend(self.settled.apply(&rows).iter().map(digits));
+        }
+        Ok(SettledOutputs { outputs: Some(outputs) })
     }
 
     fn excerpt(&self, cycles: u32) -> Excerpt {

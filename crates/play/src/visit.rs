@@ -124,6 +124,7 @@ impl Visit {
                 .and_then(|()| self.files.save(path, &text, stamp.as_deref()))
                 .map(RequestResult::Save),
             Verb::Program { path, text } => return self.check(id, path, text),
+            Verb::Settle { rows } => self.runner.settle(&rows).map(RequestResult::Settle),
             Verb::Join { name, key } => self.join(&name, key).map(RequestResult::Join),
             Verb::Progress { place, finished } => {
                 let done = self.membership.as_ref().ok_or(Refused::NoClass);

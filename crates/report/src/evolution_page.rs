@@ -8,7 +8,8 @@ use serde::Serialize;
 
 use crate::chart::range_of;
 use crate::color::Scheme;
-use crate::evolution_results::{EvolutionResults, axis_word};
+use crate::evolution_results::{ArchiveAxis, EvolutionResults};
+use crate::export::EliteData;
 use crate::heatmap::{heat, share};
 use crate::html::{Html, controls, escape, page_json, picture};
 use crate::listing::walked;
@@ -100,7 +101,7 @@ fn archive(results: &EvolutionResults, left_out: usize) -> String {
     let choice = |label: &str, place: usize| {
         let option = |&i: &usize| {
             let chosen = if counts.get(place.min(counts.len() - 1)) == Some(&i) { " selected" } else { "" };
-            format!("<option value=\"{i}\"{chosen}>{}</option>", axis_word(results.axes[i]))
+            format!("<option value=\"{i}\"{chosen}>{}</option>", results.axes[i].word())
         };
         let options: String = counts.iter().map(option).collect();
         format!("<label>{label} <select class=\"axis\">{options}</select></label>")
@@ -158,16 +159,9 @@ pub struct EvolutionData {
     cycles: u32,
     /// Frames in a cycle.
     pace: u32,
-    axes: Vec<PageAxis>,
+    axes: Vec<ArchiveAxis>,
     behaviors: Vec<PageBehavior>,
     elites: Vec<PageElite>,
-}
-
-#[derive(Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct PageAxis {
-    word: &'static str,
-    bins: usize,
 }
 
 #[derive(Serialize)]
@@ -181,14 +175,9 @@ struct PageBehavior {
 #[derive(Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct PageElite {
-    behavior: String,
-    function: &'static str,
-    /// Its bin of each axis.
-    niche: Vec<u16>,
-    fitness: [f64; 2],
+    #[serde(flatten)]
+    elite: EliteData,
     color: String,
-    /// Columns and rows.
-    size: [usize; 2],
     about: Vec<[String; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     gait: Option<RecordedBody>,
@@ -206,14 +195,13 @@ impl EvolutionData {
         // Of the 256 behaviors of three stimuli, only those that were found have a map.
         let shown = Behavior::all(results.stimuli).filter(|one| results.stimuli == 2 || found.contains(one));
         let digits = |spell: &Spell| spell.pattern.digits(results.stimuli);
-        let axis = |&axis: &Axis| PageAxis { word: axis_word(axis), bins: axis.bins(results.stimuli) };
         Self {
             looks: voxel_looks(looks),
             images: results.images.iter().map(|image| Vec::from(Image::clone(image))).collect(),
             patterns: results.shown(GAIT_CYCLES).spells.iter().map(digits).collect(),
             cycles: GAIT_CYCLES,
             pace,
-            axes: results.axes.iter().map(axis).collect(),
+            axes: results.named_axes(),
             behaviors: shown
                 .map(|one| PageBehavior { word: one.to_string(), function: one.function().name() })
                 .collect(),
@@ -224,10 +212,10 @@ impl EvolutionData {
 
 impl PageElite {
     fn of(results: &EvolutionResults, entry: &Entry<'_>, gait: Option<RecordedBody>, color: String) -> Self {
-        let Entry { key: NicheKey(niche), seed, elite } = entry;
-        let counted = results.axes.iter().zip(niche).filter(|(axis, _)| matches!(axis, Axis::Count { .. }));
+        let Entry { key, seed, elite } = entry;
+        let counted = results.axes.iter().zip(&key.0).filter(|(axis, _)| matches!(axis, Axis::Count { .. }));
         let place: Vec<String> = counted
-            .map(|(axis, bin)| format!("{} {} of {}", axis_word(*axis), bin + 1, axis.bins(results.stimuli)))
+            .map(|(axis, bin)| format!("{} {} of {}", axis.word(), bin + 1, axis.bins(results.stimuli)))
             .collect();
         let about = [
             ("fitness", format!("{}, {}", number(elite.fitness[0]), results.unit())),
@@ -239,12 +227,8 @@ impl PageElite {
             ("born", format!("seed {seed}, generation {}", elite.generation)),
         ];
         Self {
-            behavior: elite.behavior.to_string(),
-            function: elite.behavior.function().name(),
-            niche: niche.clone(),
-            fitness: elite.fitness,
+            elite: EliteData::of(*seed, key, elite),
             color,
-            size: [elite.body.width(), elite.body.height()],
             about: about.map(|(word, text)| [word.to_owned(), text]).into(),
             gait,
         }

@@ -4,11 +4,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use serde::Serialize;
+
 use crate::discovery::Discovery;
 use crate::groups::{DIFFICULTIES, group_of};
 use crate::history::ProgressLine;
 use crate::progress::{Course, Series};
-use nbc_base::model::{Axis, Behavior, CYCLE_STEPS, Count, Function, Image, Pattern, Schedule, SearchObjective, Spell};
+use nbc_base::model::{Axis, Behavior, CYCLE_STEPS, Function, Image, Pattern, Schedule, SearchObjective, Spell};
 use nbc_swarm::evolve::{Champion, Elite, NicheKey};
 
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +23,19 @@ pub struct EvolutionResults {
     pub objective: SearchObjective,
     /// The runs by their seeds: a seed is one run, however often it was read.
     pub runs: BTreeMap<u64, SeedRun>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ArchiveAxis {
+    pub name: &'static str,
+    pub bins: usize,
+}
+
+impl ArchiveAxis {
+    pub fn all(axes: &[Axis], stimuli: usize) -> Vec<Self> {
+        axes.iter().map(|axis| Self { name: axis.word(), bins: axis.bins(stimuli) }).collect()
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -89,6 +104,10 @@ impl EvolutionResults {
         Schedule { spells }
     }
 
+    pub fn named_axes(&self) -> Vec<ArchiveAxis> {
+        ArchiveAxis::all(&self.axes, self.stimuli)
+    }
+
     pub fn niche_count(&self) -> usize {
         self.axes.iter().map(|axis| axis.bins(self.stimuli)).product()
     }
@@ -145,15 +164,5 @@ impl EvolutionResults {
 
     pub fn unit(&self) -> &'static str {
         self.objective.meaning()
-    }
-}
-
-pub fn axis_word(axis: Axis) -> &'static str {
-    match axis {
-        Axis::Count { of: Count::Voxels, .. } => "voxels",
-        Axis::Count { of: Count::Active, .. } => "active",
-        Axis::Count { of: Count::Sensory, .. } => "sensory",
-        Axis::Behavior => "behavior",
-        Axis::Class => "class",
     }
 }

@@ -1,12 +1,14 @@
 //! Archives and libraries as data for other programs: JSON with everything, or a table with a row for each elite or
 //! robot.
 
+use std::sync::Arc;
+
 use serde::Serialize;
 
 use crate::csv::{cell, line};
-use crate::evolution_results::{EvolutionResults, axis_word};
+use crate::evolution_results::{ArchiveAxis, EvolutionResults};
 use nbc_base::model::{
-    Axis, Behavior, Body, Displacements, Library, Material, MaterialKind, Pattern, Robot, SearchObjective, Transition,
+    Behavior, Body, Displacements, Library, MaterialKind, Palette, Pattern, Robot, SearchObjective, Transition,
 };
 use nbc_swarm::evolve::{Elite, NicheKey};
 
@@ -18,23 +20,16 @@ pub struct Elites<'a> {
     #[serde(skip)]
     stimuli: usize,
     objective: SearchObjective,
-    axes: Vec<AxisData>,
-    elites: Vec<EliteData<'a>>,
+    axes: Vec<ArchiveAxis>,
+    elites: Vec<EliteData>,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct AxisData {
-    name: &'static str,
-    bins: usize,
-}
-
-#[derive(Clone, Debug, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct EliteData<'a> {
+pub struct EliteData {
     seed: u64,
     /// The bin on each axis, from 0.
-    niche: &'a [u16],
+    niche: Vec<u16>,
     behavior: Behavior,
     /// The gate, such as `nand`.
     function: &'static str,
@@ -42,16 +37,16 @@ struct EliteData<'a> {
     fitness: [f64; 2],
     displacement: Displacements,
     #[serde(flatten)]
-    body: BodyData<'a>,
+    body: BodyData,
     /// The generation in which it was born.
     generation: u32,
     /// Bodies tried up to and with it.
     evaluations: u64,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct BodyData<'a> {
+struct BodyData {
     width: usize,
     height: usize,
     voxels: usize,
@@ -63,11 +58,11 @@ struct BodyData<'a> {
     body: Vec<String>,
     /// The materials of the codes from 1 on, if they are not the paper's.
     #[serde(skip_serializing_if = "Option::is_none")]
-    materials: Option<&'a [Material]>,
+    materials: Option<Arc<Palette>>,
 }
 
-impl<'a> BodyData<'a> {
-    fn of(body: &'a Body) -> Self {
+impl BodyData {
+    fn of(body: &Body) -> Self {
         let palette = body.palette();
         let count = |is: fn(MaterialKind) -> bool| {
             body.codes().iter().filter(|&&code| palette.kind(code).is_some_and(is)).count()
@@ -79,15 +74,17 @@ impl<'a> BodyData<'a> {
             actuators: count(|kind| matches!(kind, MaterialKind::Actuator(_))),
             sensors: count(|kind| matches!(kind, MaterialKind::Sensor(_))),
             body: body.rows(),
-            materials: (!palette.is_paper()).then(|| palette.materials()),
+            materials: body.own_materials(),
         }
     }
 
     const COLUMNS: [&'static str; 7] = ["width", "height", "voxels", "actuators", "sensors", "body", "materials"];
 
     fn cells(&self) -> [String; 7] {
-        let materials =
-            self.materials.map(|materials| serde_json::to_string(materials).expect("materials can be written as JSON"));
+        let materials = self
+            .materials
+            .as_ref()
+            .map(|materials| serde_json::to_string(&**materials).expect("materials can be written as JSON"));
         let [width, height, voxels, actuators, sensors] =
             [self.width, self.height, self.voxels, self.actuators, self.sensors].map(|count| count.to_string());
         [width, height, voxels, actuators, sensors, self.body.join("|"), cell(&materials.unwrap_or_default())]
@@ -96,7 +93,6 @@ impl<'a> BodyData<'a> {
 
 impl<'a> Elites<'a> {
     pub fn of(results: &'a EvolutionResults) -> Self {
-        let axis = |axis: &Axis| AxisData { name: axis_word(*axis), bins: axis.bins(results.stimuli) };
         let elites = results.runs.iter().flat_map(|(&seed, run)| {
             let niche = move |(key, elites): &'a (NicheKey, Vec<Elite>)| {
                 elites.iter().map(move |elite| EliteData::of(seed, key, elite))
@@ -107,7 +103,7 @@ impl<'a> Elites<'a> {
             run: &results.name,
             stimuli: results.stimuli,
             objective: results.objective,
-            axes: results.axes.iter().map(axis).collect(),
+            axes: results.named_axes(),
             elites: elites.collect(),
         }
     }
@@ -123,17 +119,17 @@ impl<'a> Elites<'a> {
     }
 
     /// An axis whose word occurs twice gets its place, too.
-    fn axis_column(&self, place: usize, axis: &AxisData) -> String {
+    fn axis_column(&self, place: usize, axis: &ArchiveAxis) -> String {
         let alone = self.axes.iter().filter(|other| other.name == axis.name).count() == 1;
         if alone { format!("niche_{}", axis.name) } else { format!("niche_{}_{}", axis.name, place + 1) }
     }
 }
 
-impl<'a> EliteData<'a> {
-    fn of(seed: u64, key: &'a NicheKey, elite: &'a Elite) -> Self {
+impl EliteData {
+    pub fn of(seed: u64, key: &NicheKey, elite: &Elite) -> Self {
         Self {
             seed,
-            niche: &key.0,
+            niche: key.0.clone(),
             behavior: elite.behavior,
             function: elite.behavior.function().name(),
             fitness: elite.fitness,

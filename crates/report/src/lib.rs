@@ -67,8 +67,8 @@ pub use document::{Document, Schema};
 pub use element::{Anchor, Paint, Point, Type};
 pub use evolution::{EvolutionLine, evolution_table};
 pub use evolution_page::{PageFigure, draw_evolution_page};
-pub use evolution_results::{EvolutionResults, SeedRun, axis_word};
-pub use export::{Elites, robots_csv};
+pub use evolution_results::{ArchiveAxis, EvolutionResults, SeedRun};
+pub use export::{EliteData, Elites, robots_csv};
 #[cfg(feature = "pictures")]
 pub use film::{FRAMES_PER_CYCLE, Film, write_apng, write_gif};
 pub use groups::{BehaviorGroup, GroupComparison, behavior_groups, compare_groups, describe_groups, difficulty_of};

@@ -163,11 +163,13 @@ impl SwarmOutcome<'_> {
         let (table, fault) = match self {
             Self::Test(verdict) => {
                 let rows = verdict.rows.iter().map(|row| (row, row.passed));
-                (TruthTable::of_test(verdict, rows), verdict.fault())
+                (TruthTable::of_test(verdict, rows), verdict.fault.clone())
             }
-            Self::Simulation(result) => (TruthTable::of_simulation(result), result.fault.as_ref()),
+            Self::Simulation(result) => {
+                (TruthTable::of_simulation(result), result.fault.as_ref().map(ToString::to_string))
+            }
         };
-        let fault = fault.map(|fault| format!("<p class=\"fail\">{}</p>\n", escape(&fault.to_string())));
+        let fault = fault.map(|fault| format!("<p class=\"fail\">{}</p>\n", escape(&fault)));
         table.html() + &fault.unwrap_or_default()
     }
 }
@@ -262,13 +264,11 @@ fn port_waves(trace: &SwarmTrace) -> [Vec<WaveRow>; 2] {
 }
 
 pub fn draw_logic_page(source: &str, verdicts: &[&TestVerdict]) -> String {
-    let passed = verdicts.iter().filter(|verdict| verdict.passed).count();
-    let all = verdicts.len();
-    let word = if passed == all { "pass" } else { "FAIL" };
+    let tests: Vec<SwarmOutcome<'_>> = verdicts.iter().map(|verdict| SwarmOutcome::Test(verdict)).collect();
     Html {
         heading: source,
-        passed: passed == all,
-        verdict: format!("{word}: {passed} of {} passed", counted(all, "test")),
+        passed: tests.iter().all(|test| test.passed()),
+        verdict: heading(&tests, &[]),
         body: verdicts.iter().map(|verdict| logic_section(verdict)).collect(),
         script: None,
     }

@@ -2,8 +2,8 @@
 
 use crate::truth_table::{TruthTable, pass_word};
 use nbc_base::diag::counted;
-use nbc_base::model::{NamedWorld, Value};
-use nbc_swarm::{RowVerdict, SimulationResult, SwarmTrace, TestVerdict, WrongOutput};
+use nbc_base::model::NamedWorld;
+use nbc_swarm::{RowVerdict, SimulationResult, SwarmTrace, TestVerdict};
 
 const MOST_ROWS: usize = 20;
 
@@ -106,35 +106,9 @@ fn describe_rows(verdict: &TestVerdict) -> String {
 
 /// A failing row: `a.nb:12: row 3: a=4'd9 b=0 | q=1, expected 0`.
 fn describe_row(verdict: &TestVerdict, row: &RowVerdict) -> String {
-    let inputs: Vec<String> =
-        verdict.inputs.iter().zip(&row.inputs).map(|(port, value)| format!("{}={value}", port.name)).collect();
-    let bar = if inputs.is_empty() { "" } else { " | " };
-    let thread = row.thread.map_or(String::new(), |thread| format!(" in thread {}", thread + 1));
     let file = verdict.rows_from.as_ref().map_or(&verdict.file, |from| &from.file);
-    let place = format!("{file}:{}: row {}{thread}", row.line, row.row);
-    if let Some(fault) = &row.fault {
-        return format!("    {place}: {}{bar}{fault}\n", inputs.join(" "));
-    }
-    let outputs = verdict.outputs.iter().zip(&row.expected).zip(&row.observed).zip(&row.steady);
-    let wrong = outputs.filter_map(|(((port, expected), observed), &steady)| match steady {
-        _ if expected.is_open() => None,
-        false => Some(format!("{} keeps changing, expected {expected}", port.name)),
-        true if differs(expected, observed) => Some(format!("{}={observed}, expected {expected}", port.name)),
-        true => None,
-    });
-    let wrong: Vec<String> = wrong.collect();
-    let given_up = row.given_up.map_or(String::new(), |most| {
-        format!(" (repeated {most} {}, as often as its `until` permits)", if most == 1 { "time" } else { "times" })
-    });
-    let mut text = format!("    {place}: {}{bar}{}{given_up}\n", inputs.join(" "), wrong.join("; "));
-    text.extend(row.wrong_outputs.iter().map(|wrong| describe_wrong_output(wrong, "output")));
-    text.extend(row.late.iter().map(|wrong| describe_wrong_output(wrong, "had not settled yet and output")));
-    text.extend(nearest_fix(row));
-    text
-}
-
-fn differs(expected: &Value, observed: &Value) -> bool {
-    expected.bits.iter().zip(&observed.bits).any(|(expected, observed)| expected.is_some() && expected != observed)
+    let words = row.words.as_deref().unwrap_or_default().replace('\n', "\n    ");
+    format!("    {file}:{}: {words}\n", row.line)
 }
 
 /// The robots of a swarm, grouped by the gate they play: `4 nand (nand_1), 1 not (not_2)`.
@@ -155,33 +129,11 @@ pub fn describe_swarm(trace: &SwarmTrace) -> String {
     }
 }
 
-fn describe_wrong_output(wrong: &WrongOutput, did: &str) -> String {
-    let WrongOutput { net, robot, cycle, .. } = wrong;
-    let stimuli: Vec<String> = wrong.sensed.iter().map(|&bit| u8::from(bit).to_string()).collect();
-    let (cycle, output) = (cycle + 1, u8::from(wrong.output));
-    format!("    cycle {cycle}: robot {robot} on net {net} {did} {output} on stimuli {}\n", stimuli.join(" "))
-}
-
-/// The most likely fix for a row: replace robots that were wrong although they had enough time; otherwise a longer
-/// hold; otherwise another circuit.
-fn nearest_fix(row: &RowVerdict) -> Option<String> {
-    let fix = match row.wrong_outputs.first() {
-        _ if row.passed => return None,
-        Some(WrongOutput { net, robot, .. }) => format!("a robot other than {robot} on net {net}, or a longer hold"),
-        None if row.cycles < row.needed => {
-            format!("hold the row for {}, as `hold: auto` does", counted(row.needed.unwrap_or_default(), "cycle"))
-        }
-        None if row.cycles.is_none() => return None,
-        None => "every robot computed its gate, so correct the circuit or the test".to_owned(),
-    };
-    Some(format!("    nearest fix: {fix}\n"))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nbc_base::model::{Base, Column, RowSource};
-    use nbc_swarm::{Level, WeakRobot};
+    use nbc_base::model::{Base, Column, RowSource, Value};
+    use nbc_swarm::{Level, WeakRobot, WrongOutput};
 
     fn port(name: &str, width: usize) -> Column {
         Column::new(name, width)
@@ -226,6 +178,12 @@ mod tests {
         }
     }
 
+    fn told(mut verdict: TestVerdict) -> String {
+        let TestVerdict { inputs, outputs, rows, .. } = &mut verdict;
+        rows.iter_mut().for_each(|row| row.words = Some(row.describe(inputs, outputs)));
+        describe_test(&verdict) + &describe_verdict(&verdict)
+    }
+
     #[test]
     fn a_test_is_a_truth_table() {
         assert_eq!(
@@ -246,8 +204,8 @@ mod tests {
         let from = |at_least| Some(RowSource { file: "rows.csv".to_owned(), at_least });
         let mut verdict = TestVerdict { rows_from: from(Some(99.5)), ..verdict(false) };
         verdict.rows[0].wrong_outputs.clear();
-        let text = describe_verdict(&verdict);
-        assert!(text.starts_with("FAIL  latch \"holds\" (0 of 1 row, at least 99.5 %, physics)\n"), "{text}");
+        let text = told(verdict.clone());
+        assert!(text.contains("\nFAIL  latch \"holds\" (0 of 1 row, at least 99.5 %, physics)\n"), "{text}");
         assert!(text.contains("    rows.csv:7: row 2: d=1 en=0 | q=0, expected 1\n"), "{text}");
         verdict.passed = true;
         verdict.rows_from = from(Some(0.0));
@@ -258,11 +216,11 @@ mod tests {
     fn a_failure_without_a_wrong_robot_blames_the_hold_or_the_circuit() {
         let mut verdict = verdict(false);
         verdict.rows[0].late = std::mem::take(&mut verdict.rows[0].wrong_outputs);
-        let text = describe_test(&verdict);
+        let text = told(verdict.clone());
         assert!(text.contains("robot nand_1 on net q had not settled yet and output 0 on stimuli 1 0\n"), "{text}");
         assert!(text.ends_with("    nearest fix: hold the row for 14 cycles, as `hold: auto` does\n"), "{text}");
         verdict.rows[0].cycles = Some(14);
-        let text = describe_test(&verdict);
+        let text = told(verdict);
         assert!(text.ends_with("so correct the circuit or the test\n"), "{text}");
     }
 
@@ -278,11 +236,11 @@ mod tests {
         let row = &mut verdict.rows[0];
         (row.expected, row.observed, row.steady, row.wrong_outputs) =
             (vec![decimal(9)], vec![decimal(11)], vec![true], Vec::new());
-        let text = describe_test(&verdict);
+        let text = told(verdict.clone());
         assert!(text.contains("1 0     4'd9      4'd11         12  FAIL"), "{text}");
         assert!(text.contains("row 2: d=1 en=0 | sum=4'd11, expected 4'd9\n"), "{text}");
         verdict.rows[0].steady = vec![false];
-        assert!(describe_failures(&verdict).contains("| sum keeps changing, expected 4'd9\n"));
+        assert!(told(verdict).contains("| sum keeps changing, expected 4'd9\n"));
     }
 
     #[test]

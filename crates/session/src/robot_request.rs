@@ -127,15 +127,7 @@ pub fn behavior(word: &str) -> Result<Behavior, String> {
 
 impl OwnBody {
     pub fn by_hand(name: String, body: Body) -> Self {
-        let provenance = Provenance {
-            program: nbc_base::PROGRAM.to_owned(),
-            version: nbc_base::VERSION.to_owned(),
-            evolution: "by hand".to_owned(),
-            seed: 0,
-            generation: 0,
-            evaluations: 0,
-        };
-        Self { name, body, provenance, genotype: None, max_error: 1.0 }
+        Self { name, body, provenance: Provenance::unevolved("by hand"), genotype: None, max_error: 1.0 }
     }
 }
 

@@ -71,8 +71,9 @@ impl RunReport {
     }
 
     pub fn fault(&self) -> Option<&RobotFault> {
-        let tests = self.tests.iter().find_map(|test| test.verdict.fault());
-        tests.or_else(|| self.simulations.iter().find_map(|simulation| simulation.result.fault.as_ref()))
+        let mut rows = self.tests.iter().flat_map(|test| &test.verdict.rows);
+        rows.find_map(|row| row.fault.as_ref())
+            .or_else(|| self.simulations.iter().find_map(|simulation| simulation.result.fault.as_ref()))
     }
 
     /// Panics with the tables of the tests and simulations that failed.

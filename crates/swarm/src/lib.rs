@@ -25,6 +25,7 @@ mod proportion;
 mod radius;
 mod recording;
 mod robustness;
+mod row_words;
 mod sample;
 mod seeing;
 mod selection;

@@ -62,7 +62,10 @@ pub struct TestVerdict {
 
 impl TestVerdict {
     /// Of rows that were judged, without a swarm.
-    pub fn of(test: &CircuitTest, level: Level, rows: Vec<RowVerdict>) -> Self {
+    pub fn of(test: &CircuitTest, level: Level, mut rows: Vec<RowVerdict>) -> Self {
+        for row in rows.iter_mut().filter(|row| !row.passed) {
+            row.words = Some(row.describe(&test.inputs, &test.outputs));
+        }
         let passed = rows.iter().filter(|row| row.passed).count();
         Self {
             file: test.file.clone(),
@@ -92,10 +95,6 @@ impl TestVerdict {
     /// The share of rows in percent that suffices, if not all must pass.
     pub fn at_least(&self) -> Option<f64> {
         self.rows_from.as_ref().and_then(|from| from.at_least)
-    }
-
-    pub fn fault(&self) -> Option<&RobotFault> {
-        self.rows.iter().find_map(|row| row.fault.as_ref())
     }
 }
 
@@ -135,6 +134,9 @@ pub struct RowVerdict {
     /// The robot that failed in the row or before it, so that the swarm had no outputs at its end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fault: Option<RobotFault>,
+    /// How it failed, in lines; none if it passed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub words: Option<String>,
 }
 
 /// A robot whose output was not its function of its stimuli.

@@ -333,14 +333,5 @@ def _wrong_code(body: npt.NDArray[Any]) -> str:
 
 
 def _robot(record: Mapping[str, Any]) -> Robot:
-    return Robot(
-        name=record["name"],
-        function=record["function"],
-        behavior=record["behavior"],
-        body=_of_rows(record["body"], "body"),
-        displacement=np.array(record["displacement"]),
-        character=record["character"],
-        provenance=record["provenance"],
-        materials=tuple(record["materials"]),
-        file=record["file"],
-    )
+    arrays = {"body": _of_rows(record["body"], "body"), "displacement": np.array(record["displacement"])}
+    return Robot(**{**record, **arrays, "materials": tuple(record["materials"])})

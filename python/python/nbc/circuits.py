@@ -6,13 +6,13 @@ import html
 import json
 import os
 from dataclasses import dataclass, field
-from types import TracebackType
-from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, TypedDict, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, TypedDict, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _nbc
+from .closing import Closing
 from .errors import Diagnostic, Interrupted, diagnostics_of
 from .evolution import Evolution
 from .names import Effort, Level, Objective, unknown
@@ -254,14 +254,15 @@ class Program:
 
     @property
     def tests(self) -> Tuple[Mapping[str, Any], ...]:
-        """The declared tests: ``circuit``, ``title``, ``file`` and ``line`` of each."""
-        return tuple(self._native.tests())
+        """The declared tests: ``circuit``, ``title``, ``file``, ``line`` and ports of each."""
+        return tuple(json.loads(self._native.tests()))
 
     @property
     def claims(self) -> Tuple[Mapping[str, Any], ...]:
         """What is claimed of its circuits: ``circuit``, ``title``, ``file``, ``line`` and ``properties`` of each
         ``prove`` declaration."""
-        return tuple(self._native.claims())
+        claims = json.loads(self._native.claims())
+        return tuple({**one, "properties": [each["property"] for each in one["properties"]]} for one in claims)
 
     def compile(
         self,
@@ -295,12 +296,8 @@ class Program:
         name: Optional[str] = None,
         *,
         level: Optional[Level] = None,
-        library: Optional[Path] = None,
-        swarm: Optional[str] = None,
-        objective: Objective = "area",
-        effort: Effort = "normal",
-        runs: Path = "out",
         progress: Progress = False,
+        **options: Unpack[_Compiling],
     ) -> List[TestResult]:
         """Runs the tests of the file, each once for each swarm that is declared for its circuit.
 
@@ -315,12 +312,12 @@ class Program:
             KeyError: when no test has that name.
             Interrupted: on Ctrl-C, with the results of the tests before.
         """
-        options = _options(library, swarm, objective, effort, runs)
+        compiling = _options(**options)
         chosen = self._chosen(name)
         results: List[TestResult] = []
         try:
             for number in chosen:
-                results += self._test(number, level, progress, options)
+                results += self._test(number, level, progress, compiling)
         except KeyboardInterrupt:
             raise Interrupted(results) from None
         return results
@@ -333,12 +330,8 @@ class Program:
         work: int = 50_000_000,
         seconds: float = 60.0,
         physics: bool = False,
-        library: Optional[Path] = None,
-        swarm: Optional[str] = None,
-        objective: Objective = "area",
-        effort: Effort = "normal",
-        runs: Path = "out",
         progress: Progress = False,
+        **options: Unpack[_Compiling],
     ) -> List[Property]:
         """Decides the properties that the file claims of its circuits, for all inputs and for ever, as ``nbc prove``
         does.
@@ -360,13 +353,13 @@ class Program:
             NbcError: when a circuit has no steps.
             Interrupted: on Ctrl-C, with the properties of the claims before.
         """
-        options = _options(library, swarm, objective, effort, runs)
+        compiling = _options(**options)
         budget = (count(steps, "steps"), count(work, "work", most=2**64 - 1), amount(seconds, "seconds"))
         results: List[Property] = []
         try:
             for number in _numbers_of("claim", self.claims, name):
                 with reporting(progress, " properties") as report:
-                    found = json.loads(self._native.prove(number, budget, physics, options, report))
+                    found = json.loads(self._native.prove(number, budget, physics, compiling, report))
                 results += _properties(found["data"], found["texts"])
         except KeyboardInterrupt:
             raise Interrupted(results) from None
@@ -380,12 +373,8 @@ class Program:
         worlds: int = 100,
         times: Sequence[float] = (1.0,),
         seed: int = 1,
-        library: Optional[Path] = None,
-        swarm: Optional[str] = None,
-        objective: Objective = "area",
-        effort: Effort = "normal",
-        runs: Path = "out",
         progress: Progress = False,
+        **options: Unpack[_Compiling],
     ) -> List[Yield]:
         """Runs the tests of the file in physics in samples of worlds, as ``nbc test --worlds`` does.
 
@@ -403,11 +392,11 @@ class Program:
             KeyError: when no test has that name.
             Interrupted: on Ctrl-C, with the yields that are complete.
         """
-        options = _options(library, swarm, objective, effort, runs)
+        compiling = _options(**options)
         sampling = _sampling([vary] if isinstance(vary, str) else vary, times, worlds, seed)
         with reporting(progress, " cycles") as report:
             try:
-                return _yields(self._native.yields(self._chosen(name), sampling, options, report))
+                return _yields(self._native.yields(self._chosen(name), sampling, compiling, report))
             except Interrupted as interrupt:
                 interrupt.result = _yields(interrupt.result)
                 raise
@@ -420,12 +409,8 @@ class Program:
         worlds: int = 40,
         seed: int = 1,
         least_yield: float = 0.95,
-        library: Optional[Path] = None,
-        swarm: Optional[str] = None,
-        objective: Objective = "area",
-        effort: Effort = "normal",
-        runs: Path = "out",
         progress: Progress = False,
+        **options: Unpack[_Compiling],
     ) -> Hardened:
         """Finds the robots to leave out of a circuit's swarm, as ``nbc build --harden`` does.
 
@@ -444,23 +429,19 @@ class Program:
         Raises:
             NbcError: when the circuit has no test.
         """
-        options = _options(library, swarm, objective, effort, runs)
+        compiling = _options(**options)
         least = amount(least_yield, "least_yield", most=1.0)
         sampling = _sampling([vary], [1.0], worlds, seed)
         with reporting(progress, " cycles") as report:
-            found = json.loads(self._native.harden(circuit, sampling, least, options, report))
+            found = json.loads(self._native.harden(circuit, sampling, least, compiling, report))
         return Hardened(found["data"], found["text"])
 
     def run(
         self,
         *,
-        library: Optional[Path] = None,
-        swarm: Optional[str] = None,
-        objective: Objective = "area",
-        effort: Effort = "normal",
-        runs: Path = "out",
         safe_colors: bool = False,
         progress: Progress = False,
+        **options: Unpack[_Compiling],
     ) -> Report:
         """Runs every test and simulation of the file in physics, and makes the page of ``nbc run``.
 
@@ -469,11 +450,11 @@ class Program:
 
         The other arguments are those of `test`.
         """
-        options = _options(library, swarm, objective, effort, runs)
+        compiling = _options(**options)
         recorded = _nbc.Program(self.path, self._text, True)
         with reporting(progress, " cycles") as report:
             try:
-                return _report(*recorded.run(options, safe_colors, report))
+                return _report(*recorded.run(compiling, safe_colors, report))
             except Interrupted as interrupt:
                 interrupt.result = _report(*interrupt.result)
                 raise
@@ -496,11 +477,10 @@ class Program:
         return self._native.circuits()
 
     def _test(
-        self, number: int, level: Optional[str], progress: Progress, options: Optional[Dict[str, Any]] = None
+        self, number: int, level: Optional[str], progress: Progress, compiling: Optional[_nbc._Options] = None
     ) -> List[TestResult]:
-        options = _options(None, None, "area", "normal", "out") if options is None else options
         with reporting(progress, " cycles") as report:
-            records = self._native.test(number, level, options, report)
+            records = self._native.test(number, level, compiling or _options(), report)
         return [_result(record) for record in json.loads(records)]
 
     def __repr__(self) -> str:
@@ -630,7 +610,7 @@ class Compiled:
         return f"<Compiled {self.name}: {len(self.robots)} robots>"
 
 
-class Swarm:
+class Swarm(Closing):
     """A swarm in full physics, simulated cycle by cycle. In a notebook it is shown in space and time.
 
     There is ground for a thousand cycles. If Ctrl-C ends a call, the cycle that is being simulated is completed.
@@ -645,7 +625,7 @@ class Swarm:
     def __init__(self, compiled: Compiled) -> None:
         self.compiled = compiled
         """The compiled circuit."""
-        self._native = compiled._native.swarm()
+        self._native: _nbc.Swarm = compiled._native.swarm()
 
     def step(self, values: Optional[Row] = None, *, cycles: int = 1, **ports: int) -> Dict[str, int]:
         """Simulates cycles with these values on the input ports, and returns those of the output ports.
@@ -721,18 +701,6 @@ class Swarm:
         self._native.close()
         self._native = self.compiled._native.swarm()
 
-    def close(self) -> None:
-        """Frees the robots. Later calls raise ValueError."""
-        self._native.close()
-
-    def __enter__(self) -> Swarm:
-        return self
-
-    def __exit__(
-        self, kind: Optional[Type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]
-    ) -> None:
-        self.close()
-
     def _row(self, row: Row) -> List[bool]:
         ports = self.compiled.inputs
         if is_array(row):
@@ -801,7 +769,7 @@ def loads(text: str, path: str = "program.nb") -> Program:
     return Program(path, text)
 
 
-def _sampling(vary: Sequence[str], times: Sequence[float], worlds: int, seed: int) -> _nbc._Sampling:
+def _sampling(vary: Sequence[str], times: Sequence[float], worlds: int, seed: int) -> Dict[str, Any]:
     """A sample of worlds for the native half."""
     if not vary or not times:
         raise ValueError("vary and times need a value at least")
@@ -835,7 +803,11 @@ def _yields(records: str) -> List[Yield]:
 
 
 def _options(
-    library: Optional[Path], swarm: Optional[str], objective: Objective, effort: Effort, runs: Path
+    library: Optional[Path] = None,
+    swarm: Optional[str] = None,
+    objective: Objective = "area",
+    effort: Effort = "normal",
+    runs: Path = "out",
 ) -> Dict[str, Any]:
     return {
         "library": None if library is None else os.fspath(library),

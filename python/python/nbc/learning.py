@@ -123,7 +123,7 @@ def learn(
     if not isinstance(name, (str, type(None))):
         raise TypeError(f"name is {name!r}, expected a text")
     named = name or os.path.splitext(os.path.basename(written or file))[0]
-    arguments: _nbc._Learning = {
+    arguments = {
         "name": named,
         "file": file,
         "text": text,

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import threading
 from dataclasses import dataclass, field
-from types import TracebackType
-from typing import Any, Dict, List, Literal, Mapping, NamedTuple, Optional, Sequence, Tuple, Type, Union
+from typing import Any, Dict, List, Literal, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _nbc
 from .bodies import Bodies, Material, pack
+from .closing import Closing
 from .errors import Interrupted, report_invalid
 from .names import meant
 from .numbers import array_of, count, is_array, real
@@ -110,7 +110,7 @@ def simulate(
         raise ValueError(f"record is {record!r}, expected 'com', 'poses' or None{meant(record, RECORDS)}")
     every = count(stride, "stride", least=1)
     packed = pack(bodies, materials)
-    trials: _nbc._Trials = {
+    trials = {
         "codes": packed.codes,
         "shapes": packed.shapes,
         "materials": packed.materials,
@@ -180,7 +180,7 @@ class FlockState:
         return self
 
 
-class Flock:
+class Flock(Closing):
     """Robots that are advanced step by step, each alone in its own simulation with its own stimuli.
 
     For closed-loop control and other experiments step by step. A flock can be used from several threads: calls wait for
@@ -211,7 +211,7 @@ class Flock:
         start = None if start_x is None else count(start_x, "start_x")
         width = count(world_width, "world_width")
         self._source = _Source(packed.codes, packed.shapes, packed.materials, width, start)
-        self._native = _nbc.Flock(*self._source)
+        self._native: _nbc.Flock = _nbc.Flock(*self._source)
         self._last: Optional[_Spell] = None
         self._lock = threading.RLock()
 
@@ -275,18 +275,6 @@ class Flock:
         with self._lock:
             self._native.restore(native)
             self._last = state._last
-
-    def close(self) -> None:
-        """Frees the robots. Later calls raise ValueError."""
-        self._native.close()
-
-    def __enter__(self) -> Flock:
-        return self
-
-    def __exit__(
-        self, kind: Optional[Type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]
-    ) -> None:
-        self.close()
 
     def __getstate__(self) -> Dict[str, Any]:
         return self.snapshot().__getstate__()

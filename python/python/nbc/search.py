@@ -343,7 +343,7 @@ class Search:
             wide_margin: robots with at least this margin are better than quicker ones with less, in voxels per cycle.
             progress: whether to show a tqdm bar, or a function of the work done and all work.
         """
-        choosing: _nbc._Choosing = {
+        choosing = {
             "tries": count(tries, "tries", least=1),
             "finalists": count(finalists, "finalists", least=1),
             "max_error": amount(max_error, "max_error", most=1.0),

@@ -7,7 +7,7 @@ use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::{spacetime, wording};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::SearchObjective;
-use nbc_session::report::{self, ArchiveMap, EvolutionResults, PageFigure, Scheme, Svg, axis_word};
+use nbc_session::report::{self, ArchiveMap, EvolutionResults, PageFigure, Scheme, Svg};
 use nbc_swarm::evolve::NicheKey;
 
 pub(super) fn comparison(results: &EvolutionResults, _: &DrawRequest) -> Result<Drawn, Failure> {
@@ -51,7 +51,7 @@ pub(super) fn heatmap(results: &EvolutionResults, request: &DrawRequest) -> Resu
 
 /// By default the first two.
 fn axes(results: &EvolutionResults, requested: &[String]) -> Result<[usize; 2], Failure> {
-    let axes: Vec<String> = results.axes.iter().map(|&axis| axis_word(axis).to_owned()).collect();
+    let axes: Vec<String> = results.axes.iter().map(|axis| axis.word().to_owned()).collect();
     if requested.is_empty() {
         return Ok([0, usize::from(axes.len() > 1)]);
     }

@@ -10,9 +10,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use serde::{Deserialize, Serialize};
 
 use crate::cli::{Failure, Interrupt};
-use nbc_base::model::{Behavior, Character, Displacements, Fault};
 use nbc_session::store;
-use nbc_swarm::{Executor, Measurement, Task, TaskResult};
+use nbc_swarm::{Executor, Task, TaskResult};
 
 /// In the folder of the robots.
 const FILE: &str = "measured.jsonl";
@@ -29,7 +28,7 @@ pub(super) struct Measured<'a> {
 }
 
 struct State {
-    known: BTreeMap<String, KeptResult>,
+    known: BTreeMap<String, TaskResult>,
     /// Why a result could not be written.
     fault: Option<Failure>,
 }
@@ -38,16 +37,7 @@ struct State {
 struct Line {
     version: String,
     task: String,
-    outcome: KeptResult,
-}
-
-#[derive(Clone, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum KeptResult {
-    Screened(Option<(u32, f64)>),
-    Measured(Box<(Displacements, Behavior, Character)>),
-    FaultyScreening(Fault),
-    FaultyMeasurement(Fault),
+    outcome: TaskResult,
 }
 
 impl<'a> Measured<'a> {
@@ -85,8 +75,7 @@ impl<'a> Measured<'a> {
     }
 
     fn keep(&self, task: String, result: &TaskResult) {
-        let Some(outcome) = KeptResult::of(result) else { return };
-        let line = Line { version: nbc_base::VERSION.to_owned(), task, outcome };
+        let line = Line { version: nbc_base::VERSION.to_owned(), task, outcome: result.clone() };
         let text = serde_json::to_string(&line).expect("a result can be written as JSON") + "\n";
         let mut state = self.lock();
         let folder = self.path.parent().map_or(Ok(()), store::create_folder);
@@ -100,7 +89,7 @@ impl<'a> Measured<'a> {
 
 impl Executor for Measured<'_> {
     fn perform(&self, run: usize, tasks: &[Task], observe: &dyn Fn()) -> Option<Vec<TaskResult>> {
-        let known = |task: &Task| key(task).and_then(|key| self.lock().known.get(&key).map(KeptResult::result));
+        let known = |task: &Task| key(task).and_then(|key| self.lock().known.get(&key).cloned());
         let mut results: Vec<Option<TaskResult>> = tasks.iter().map(known).collect();
         results.iter().flatten().for_each(|_| observe());
         let open: Vec<usize> = (0..tasks.len()).filter(|&place| results[place].is_none()).collect();
@@ -130,32 +119,6 @@ fn key(task: &Task) -> Option<String> {
     };
     let materials = serde_json::to_string(&body.own_materials()).expect("materials can be written as JSON");
     Some(format!("{what} {} {materials}", body.rows().join("|")))
-}
-
-impl KeptResult {
-    fn of(result: &TaskResult) -> Option<Self> {
-        Some(match result {
-            TaskResult::Screening(Ok(found)) => Self::Screened(*found),
-            TaskResult::Screening(Err(fault)) => Self::FaultyScreening(*fault),
-            TaskResult::Measurement(Ok(Measurement { displacement, behavior, character })) => {
-                Self::Measured(Box::new((*displacement, *behavior, character.clone())))
-            }
-            TaskResult::Measurement(Err(fault)) => Self::FaultyMeasurement(*fault),
-            TaskResult::Evaluation(_) | TaskResult::Swarm(_) => return None,
-        })
-    }
-
-    fn result(&self) -> TaskResult {
-        match self.clone() {
-            Self::Screened(found) => TaskResult::Screening(Ok(found)),
-            Self::FaultyScreening(fault) => TaskResult::Screening(Err(fault)),
-            Self::Measured(measured) => {
-                let (displacement, behavior, character) = *measured;
-                TaskResult::Measurement(Ok(Measurement { displacement, behavior, character }))
-            }
-            Self::FaultyMeasurement(fault) => TaskResult::Measurement(Err(fault)),
-        }
-    }
 }
 
 #[cfg(test)]

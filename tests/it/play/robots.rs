@@ -31,7 +31,7 @@ fn a_body_of_three_senses_walks_under_eight_patterns() {
     page.done(json!({ "do": "program", "path": "n.nb", "text": "circuit n(a) -> (q) { q = not a }" }));
     let library = page.done(json!({ "do": "robots", "path": "n.nb" }));
     let card = library["robots"].as_array().unwrap().iter().find(|robot| robot["name"] == "and3_5x5").unwrap();
-    assert_eq!((&card["body"], &card["letters"]), (&json!(AND), &json!("LLLLLLLR")));
+    assert_eq!((&card["body"], &card["behavior"]), (&json!(AND), &json!("LLLLLLLR")));
     assert_eq!((&card["shipped"], &card["painted"]), (&json!(true), &json!(true)));
     let probe = page.done(json!({ "do": "probe", "body": AND, "cycles": 1, "character": false }));
     assert_eq!((&probe["letters"], &probe["function"]), (&json!("LLLLLLLR"), &json!("and3")));
@@ -45,9 +45,9 @@ fn a_body_of_three_senses_walks_under_eight_patterns() {
     assert_eq!((look(&probe, 1)["name"].as_str(), &library["looks"][index]), (Some("s3_grow"), &look(&probe, 1)));
     page.done(json!({ "do": "evolve", "body": ["a79", "343"], "box": [3, 2], "generations": 1, "seed": 1 }));
     let archive = page.event(|event| event["event"] == "archive" && event["generation"] == 1);
-    assert_eq!(archive["axes"][1], json!(["behavior", 256]));
+    assert_eq!(archive["axes"][1], json!({ "name": "behavior", "bins": 256 }));
     let niches = archive["niches"].as_array().unwrap();
-    let letters: Vec<_> = niches.iter().map(|niche| niche["letters"].as_str().unwrap()).collect();
+    let letters: Vec<_> = niches.iter().map(|niche| niche["behavior"].as_str().unwrap()).collect();
     assert!(!letters.is_empty() && letters.iter().all(|letters| letters.len() == 8), "{archive}");
 }
 
@@ -134,6 +134,6 @@ fn a_body_of_the_archive_is_of_the_same_kind_in_the_designer() {
     assert!(!niches.is_empty());
     for niche in niches {
         let probe = json!({ "do": "probe", "body": niche["body"], "cycles": 1, "character": false });
-        assert_eq!(page.done(probe)["letters"], niche["letters"], "{niche}");
+        assert_eq!(page.done(probe)["letters"], niche["behavior"], "{niche}");
     }
 }

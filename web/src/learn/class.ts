@@ -61,7 +61,7 @@ export class ClassPanel {
       if (!(error instanceof RequestError)) {
         throw error;
       }
-      this.#problem.textContent = `${error.message}${error.help === null ? "" : `; ${error.help}`}`;
+      this.#problem.textContent = error.words;
     }
     this.#show();
   }

@@ -6,7 +6,6 @@ import type { StimulusSource, Column, ShownSwarm } from "../protocol";
 import type { View } from "./animation";
 import { FORMATS, numberFormat, numberText, type NumberFormat } from "./numbers";
 import type { LiveSwarm } from "./swarm";
-import { logicOf } from "./truth";
 
 /** Wider buses have no lamps, only their number. */
 const LIT = 16;
@@ -54,23 +53,30 @@ export class OutputPanel implements View {
     return wide || kept.some(bits => bits.length > 1);
   }
 
-  #logic(definition: ShownSwarm): HTMLElement | null {
-    const outputsOf = logicOf(definition);
-    const text = element("output", { class: "logic", title: "What the robots will show once they have settled" });
-    let known = "";
-    if (outputsOf === null) {
-      return null;
-    }
-    this.#updates.push(() => {
-      const key = `${numberFormat.value} ${this.swarm.inputs.value}`;
-      if (key !== known) {
-        known = key;
-        const bits = [...outputsOf(this.swarm.inputs.value)].map(Number);
-        const values = definition.outputs.map(port => {
-          const start = offsetOf(definition.outputs, port);
+  /** Hidden for a circuit with a state. */
+  #logic({ outputs }: ShownSwarm): HTMLElement {
+    const title = "What the robots will show once they have settled";
+    const text = element("output", { class: "logic", hidden: true, title });
+    let known: string | null = "";
+    const show = async (key: string, inputs: string): Promise<void> => {
+      known = key;
+      const settled = await this.swarm.settled([inputs]);
+      if (settled === null) {
+        known = null;
+      } else if (key === known) {
+        const bits = [...(settled[0] ?? "")].map(Number);
+        const values = outputs.map(port => {
+          const start = offsetOf(outputs, port);
           return `${port.name} = ${numberText(toNumber(bits.slice(start, start + port.width)), port)}`;
         });
         text.textContent = `soon ${values.join(", ")}`;
+        text.hidden = false;
+      }
+    };
+    this.#updates.push(() => {
+      const key = `${numberFormat.value} ${this.swarm.inputs.value}`;
+      if (known !== null && key !== known) {
+        void show(key, this.swarm.inputs.value);
       }
     });
     return text;

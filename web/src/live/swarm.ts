@@ -86,6 +86,12 @@ export class LiveSwarm {
     this.#proposed = inputs;
   }
 
+  /** What the outputs are for rows of inputs once all robots have settled; null for a swarm with a state. */
+  async settled(rows: string[]): Promise<string[] | null> {
+    const answer = await this.server.request("settle", { rows }).catch(() => null);
+    return answer?.outputs ?? null;
+  }
+
   setBit(index: number, bit: number): void {
     this.setInputs(withBit(this.inputs.value, index, bit));
   }

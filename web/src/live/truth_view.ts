@@ -2,10 +2,12 @@
 
 import { button, element, fill } from "../element";
 import { recall, remember } from "../memory";
-import { bitsOf } from "../ports";
+import { bitsOf, totalWidth } from "../ports";
 import type { ShownSwarm } from "../protocol";
 import type { LiveSwarm } from "./swarm";
-import { truthRows, type TruthRow } from "./truth";
+
+/** Circuits with more bits of inputs have no table: it would be too long to read. */
+const MOST_BITS = 5;
 
 export class TruthView {
   readonly host = element("div", { class: "table", tabindex: 0, role: "group", "aria-label": "Truth table" });
@@ -18,7 +20,7 @@ export class TruthView {
   #marked: HTMLElement | undefined;
 
   constructor(private readonly swarm: LiveSwarm) {
-    swarm.definition.follow(definition => this.#build(definition));
+    swarm.definition.follow(definition => void this.#build(definition));
     swarm.inputs.on(() => this.#mark());
   }
 
@@ -35,18 +37,24 @@ export class TruthView {
     this.host.hidden = none || !this.#open;
   }
 
-  #build(definition: ShownSwarm | null): void {
-    const rows = definition === null ? null : truthRows(definition);
+  async #build(definition: ShownSwarm | null): Promise<void> {
     this.#rows.clear();
     this.host.replaceChildren();
-    if (definition !== null && rows !== null) {
-      fill(this.host, this.#table(definition, rows));
-    }
     this.#showOpen();
-    this.#mark();
+    const width = totalWidth(definition?.inputs ?? []);
+    if (definition === null || width === 0 || width > MOST_BITS) {
+      return;
+    }
+    const rows = Array.from({ length: 1 << width }, (_, row) => row.toString(2).padStart(width, "0"));
+    const outputs = await this.swarm.settled(rows);
+    if (outputs !== null && definition === this.swarm.definition.value) {
+      fill(this.host, this.#table(definition, rows, outputs));
+      this.#showOpen();
+      this.#mark();
+    }
   }
 
-  #table({ inputs, outputs }: ShownSwarm, rows: TruthRow[]): HTMLElement {
+  #table({ inputs, outputs }: ShownSwarm, rows: string[], found: string[]): HTMLElement {
     const names = (ports: ShownSwarm["inputs"]): HTMLElement[] =>
       bitsOf(ports).map(({ name }, i) => element("th", { scope: "col", class: i === 0 ? "first" : null }, name));
     const head = element("tr", {}, element("th"), ...names(inputs), ...names(outputs));
@@ -54,11 +62,11 @@ export class TruthView {
       "table",
       { class: "rows" },
       element("thead", {}, head),
-      element("tbody", {}, ...rows.map(row => this.#row(row))),
+      element("tbody", {}, ...rows.map((row, at) => this.#row(row, found[at] ?? ""))),
     );
   }
 
-  #row({ inputs, outputs }: TruthRow): HTMLElement {
+  #row(inputs: string, outputs: string): HTMLElement {
     const cells = (bits: string): HTMLElement[] =>
       [...bits].map((bit, i) => element("td", { "data-value": bit, class: i === 0 ? "first" : null }, bit));
     // The row does it, too; the button is for the keyboard.

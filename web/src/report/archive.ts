@@ -107,12 +107,11 @@ export class Archive {
     this.#clock.seek(0);
   }
 
-  #walkOf({ size, gait }: PageElite): { view: GaitView; gait: Gait } | null {
+  #walkOf({ width, height, gait }: PageElite): { view: GaitView; gait: Gait } | null {
     if (gait === undefined) {
       return null;
     }
-    const [columns, rows] = size;
-    const looking = { voxels: gait.voxels, looks: this.data.looks, tall: rows + 1, wide: 2 * columns };
+    const looking = { voxels: gait.voxels, looks: this.data.looks, tall: height + 1, wide: 2 * width };
     const view = new GaitView(this.#stage, looking);
     return { view, gait: gaitOf(gait, this.data.pace) };
   }

@@ -2,11 +2,11 @@
 
 import { element, fill } from "../element";
 import { gateName, gateOf, lettersOf } from "../gate";
-import type { ArchiveChange, AxisEntry, NicheEntry } from "../protocol";
+import type { ArchiveAxis, ArchiveChange, EliteData } from "../protocol";
 
 export class Archive {
-  readonly niches = new Map<string, NicheEntry>();
-  axes: AxisEntry[] = [];
+  readonly niches = new Map<string, EliteData>();
+  axes: ArchiveAxis[] = [];
   evaluations = 0;
   generation = 0;
 
@@ -22,7 +22,7 @@ export class Archive {
     this.evaluations = event.evaluations;
     this.generation = event.generation;
     for (const niche of event.niches) {
-      this.niches.set(niche.place.join(), niche);
+      this.niches.set(niche.niche.join(), niche);
     }
   }
 
@@ -34,20 +34,20 @@ export class Archive {
   /** The axes that a map shows, and those of which each combination of places is a map of its own. */
   split(): { across: number[]; layers: number[] } {
     const all = this.axes.map((_, axis) => axis);
-    const across = all.filter(axis => this.axes[axis]?.[0] !== "behavior").slice(0, 2);
+    const across = all.filter(axis => this.axes[axis]?.name !== "behavior").slice(0, 2);
     return { across, layers: all.filter(axis => !across.includes(axis)) };
   }
 
   places(axes: number[]): number[][] {
     return axes.reduce<number[][]>(
       (places, axis) =>
-        places.flatMap(place => Array.from({ length: this.axes[axis]?.[1] ?? 1 }, (_, i) => [...place, i])),
+        places.flatMap(place => Array.from({ length: this.axes[axis]?.bins ?? 1 }, (_, i) => [...place, i])),
       [[]],
     );
   }
 }
 
-export function strength(niche: NicheEntry): number {
+export function strength(niche: EliteData): number {
   return niche.fitness.at(-1) ?? 0;
 }
 
@@ -59,7 +59,7 @@ export class HeatMap {
 
   constructor(
     private readonly archive: Archive,
-    private readonly choose: (niche: NicheEntry) => void,
+    private readonly choose: (niche: EliteData) => void,
   ) {}
 
   draw(): void {
@@ -74,14 +74,14 @@ export class HeatMap {
     }
   }
 
-  #open(place: string, niche: NicheEntry, best: number): void {
+  #open(place: string, niche: EliteData, best: number): void {
     const square = this.#squares.get(place);
     if (square === undefined) {
       return;
     }
     const share = Math.max(0, Math.min(1, strength(niche) / best));
     const fitness = niche.fitness.map(part => part.toFixed(3)).join(" and ");
-    const words = `${gateName(niche.function)}, ${niche.letters}, fitness ${fitness}`;
+    const words = `${gateName(niche.function)}, ${niche.behavior}, fitness ${fitness}`;
     square.disabled = false;
     square.style.setProperty("--share", `${Math.round(15 + 85 * share)}%`);
     square.title = words;
@@ -89,11 +89,11 @@ export class HeatMap {
     const title = this.#titles.get(
       this.archive
         .split()
-        .layers.map(axis => niche.place[axis])
+        .layers.map(axis => niche.niche[axis])
         .join(),
     );
     if (title !== undefined) {
-      title.textContent = niche.function === null ? niche.letters : gateName(niche.function);
+      title.textContent = gateName(niche.function);
       title.closest(".map")?.classList.remove("none");
     }
   }
@@ -106,7 +106,7 @@ export class HeatMap {
     // Of the 256 behaviors of three stimuli, only those that are found have room.
     this.host.toggleAttribute("data-many", places.length > 16);
     fill(this.host, ...places.map(layer => this.#map(layer, layers, across)));
-    const [columns = "", rows] = across.map(axis => this.archive.axes[axis]?.[0] ?? "");
+    const [columns = "", rows] = across.map(axis => this.archive.axes[axis]?.name ?? "");
     const names =
       rows === undefined
         ? `${columns} from left to right`
@@ -118,7 +118,7 @@ export class HeatMap {
   #map(layer: number[], layers: number[], across: number[]): HTMLElement {
     const title = element("h4", {}, this.#titleOf(layer, layers));
     this.#titles.set(layer.join(), title);
-    const [columns = 1, rows = 1] = across.map(axis => this.archive.axes[axis]?.[1] ?? 1);
+    const [columns = 1, rows = 1] = across.map(axis => this.archive.axes[axis]?.bins ?? 1);
     const squares = Array.from({ length: rows }, (_, row) =>
       Array.from({ length: columns }, (__, column) => {
         const place: number[] = [];
@@ -134,8 +134,8 @@ export class HeatMap {
 
   /** The gate of a behavior. Its number has a bit for each pattern, 00 the lowest. */
   #titleOf(layer: number[], layers: number[]): string {
-    const index = layers.findIndex(axis => this.archive.axes[axis]?.[0] === "behavior");
-    const [number, behaviors] = [layer[index], this.archive.axes[layers[index] ?? -1]?.[1] ?? 1];
+    const index = layers.findIndex(axis => this.archive.axes[axis]?.name === "behavior");
+    const [number, behaviors] = [layer[index], this.archive.axes[layers[index] ?? -1]?.bins ?? 1];
     return number === undefined ? "–" : gateName(gateOf(lettersOf(number, Math.log2(behaviors))));
   }
 

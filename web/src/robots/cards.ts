@@ -113,7 +113,7 @@ export class Cards {
             const view = new GaitView(canvas, {
               voxels: probe.voxels,
               looks: probe.looks,
-              tall: robot.height + 1,
+              tall: robot.body.length + 1,
               wide: 11,
             });
             stop = this.ticker.add(play(view, probe.gaits.map(decodeGait), probe.letters, caption));
@@ -150,7 +150,7 @@ function factsOf(robot: RobotCard): HTMLElement {
   const facts: [string, string][] = [
     ["clock", `${robot.clock} ${robot.clock === 1 ? "cycle" : "cycles"}`],
     ["margin", `${robot.margin.toFixed(3)} voxels`],
-    ["errors", percent(robot.errors)],
+    ["errors", percent(robot.error_rate)],
     ["from", robot.shipped ? "the library" : "the program"],
   ];
   return factList(facts);

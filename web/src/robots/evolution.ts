@@ -4,7 +4,7 @@ import { CANCELLED, type Connection } from "../connection";
 import { downloadBytes } from "../download";
 import { button, element } from "../element";
 import { Observable } from "../observable";
-import type { NicheEntry } from "../protocol";
+import type { EliteData } from "../protocol";
 import { RequestError } from "../request";
 import { Archive, HeatMap } from "./archive";
 import { countVoxels, sizeOf, type Body } from "./body";
@@ -13,8 +13,8 @@ const GENERATIONS = 60;
 
 export interface Search {
   running: boolean;
-  niches: NicheEntry[];
-  chosen: NicheEntry | null;
+  niches: EliteData[];
+  chosen: EliteData | null;
 }
 
 export class Evolution {
@@ -74,7 +74,8 @@ export class Evolution {
   }
 
   #save(): void {
-    const niches = [...this.#archive.niches.values()];
+    // With the names that earlier files have, too.
+    const niches = [...this.#archive.niches.values()].map(one => ({ ...one, place: one.niche, letters: one.behavior }));
     downloadBytes(JSON.stringify({ niches }, null, 2), "application/json", "archive.json");
   }
 
@@ -120,7 +121,7 @@ export class Evolution {
 
   #show(running: boolean, problem = ""): void {
     const { niches, evaluations, generation } = this.#archive;
-    const gates = new Set([...niches.values()].map(niche => niche.function).filter(name => name !== null)).size;
+    const gates = new Set([...niches.values()].map(niche => niche.function)).size;
     this.#status.textContent =
       problem ||
       `generation ${generation}: ${niches.size} kinds, ${gates} different gates, ${evaluations} bodies simulated`;

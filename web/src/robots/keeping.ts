@@ -117,7 +117,7 @@ export class Keeping {
     if (!(error instanceof RequestError)) {
       throw error;
     }
-    const text = error.code === CANCELLED ? "nothing was kept" : [error.message, error.help].filter(Boolean).join("; ");
+    const text = error.code === CANCELLED ? "nothing was kept" : error.words;
     const replace = error.code === "exists" && [
       " ",
       button("Replace it", () => void this.#keep(true), { "data-do": "replace" }),

@@ -3,7 +3,7 @@
 import { drawVoxel, type Corners } from "../live/drawing";
 import type { PaletteEntry, RobotCard, VoxelLook } from "../protocol";
 import { colors } from "../colors";
-import { EMPTY } from "./body";
+import { EMPTY, sizeOf } from "./body";
 
 export function looksByCode(looks: VoxelLook[], palette: PaletteEntry[]): Map<string, VoxelLook> {
   return new Map(
@@ -22,7 +22,8 @@ export function drawBody(canvas: HTMLCanvasElement, robot: RobotCard, looks: Vox
   if (pen === null) {
     return;
   }
-  const { body, width, height } = robot;
+  const { body } = robot;
+  const [width, height] = sizeOf(body);
   const voxels = robot.voxels.values();
   const side = Math.min(canvas.height / (height + 1), canvas.width / (width + 1));
   pen.strokeStyle = colors.value.edge;

@@ -1,17 +1,15 @@
 // What is claimed of the circuits of the program: prove it, and watch the run that refutes a property.
 
-import { CANCELLED, type Connection } from "../connection";
+import type { Connection } from "../connection";
 import { button, element, fill } from "../element";
-import { Observable } from "../observable";
 import type { Program } from "../program";
-import type { ClaimEntry, DecidedProperty } from "../protocol";
-import { RequestError } from "../request";
+import type { Claim, DecidedProperty } from "../protocol";
+import { type Attempt, attemptBar, Attempts, placeOf } from "./attempts";
 
-/** What is known of a claim. */
-export type ClaimState =
-  | { state: "running"; work: AbortController }
-  | { state: "done"; properties: DecidedProperty[] }
-  | { state: "failed"; message: string };
+/** A claim with its number in the program. */
+type NumberedClaim = Claim & { index: number };
+
+export type ClaimState = Attempt<{ properties: DecidedProperty[] }>;
 
 /** Where a claim leads to. */
 export interface ClaimLeads {
@@ -28,63 +26,32 @@ const SIGNS = { proved: "✓ proved", refuted: "✗ refuted", undecided: "? unde
 
 export class ClaimCards {
   readonly host = element("div", { class: "list" });
-  /** What is known of the claims by their numbers, for the present text. */
-  readonly states = new Observable(new Map<number, ClaimState>());
+  readonly #attempts = new Attempts<{ properties: DecidedProperty[] }>();
+  readonly states = this.#attempts.states;
 
   constructor(
     private readonly connection: Connection,
     private readonly program: Program,
     private readonly leads: ClaimLeads,
   ) {
-    program.checked.on(() => {
-      for (const state of this.states.value.values()) {
-        if (state.state === "running") {
-          state.work.abort();
-        }
-      }
-      this.states.set(new Map());
-    });
+    program.checked.on(() => this.#attempts.clear());
     this.states.follow(() => fill(this.host, ...this.#claims().map(claim => this.#card(claim))));
   }
 
-  #claims(): ClaimEntry[] {
-    return this.program.checked.value?.claims ?? [];
+  #claims(): NumberedClaim[] {
+    return (this.program.checked.value?.claims ?? []).map((claim, index) => ({ ...claim, index }));
   }
 
-  #set(index: number, state: ClaimState): void {
-    this.states.value.set(index, state);
-    this.states.notify();
-  }
-
-  async #prove({ circuit, title, index }: ClaimEntry): Promise<void> {
+  async #prove(declared: NumberedClaim): Promise<void> {
     await this.leads.settle();
-    const same = this.#claims().filter(claim => claim.circuit === circuit && claim.title === title);
-    const claim = (same.find(claim => claim.index === index) ?? same[0])?.index;
-    if (claim === undefined) {
-      return;
-    }
-    const work = new AbortController();
-    const states = this.states.value;
-    this.#set(claim, { state: "running", work });
-    try {
+    const claim = placeOf(declared, this.#claims());
+    if (claim !== undefined) {
       const fields = { path: this.program.path.value, claim };
-      const { properties } = await this.connection.request("prove", fields, { signal: work.signal });
-      // After an edit the result is about a claim that is no longer there.
-      if (states === this.states.value) {
-        this.#set(claim, { state: "done", properties });
-      }
-    } catch (error) {
-      if (error instanceof RequestError && states === this.states.value) {
-        const help = error.help === null ? "" : `; ${error.help}`;
-        this.#set(claim, {
-          state: "failed",
-          message: error.code === CANCELLED ? "stopped" : `${error.message}${help}`,
-        });
-      }
+      await this.#attempts.run(claim, ({ signal }) => this.connection.request("prove", fields, { signal }));
     }
   }
 
-  #card(claim: ClaimEntry): HTMLElement {
+  #card(claim: NumberedClaim): HTMLElement {
     const state = this.states.value.get(claim.index);
     const known = state?.state === "done" ? state.properties : null;
     const passed = known === null ? "" : String(known.every(({ verdict }) => verdict === "proved"));
@@ -106,14 +73,7 @@ export class ClaimCards {
         "div",
         { class: "bar" },
         button("Prove", () => void this.#prove(claim), { "data-do": "prove", disabled: state?.state === "running" }),
-        state?.state === "failed" && element("span", { class: "verdict fail" }, state.message),
-        state?.state === "running" &&
-          element(
-            "span",
-            { class: "verdict" },
-            element("progress", { "aria-label": "Progress" }),
-            button("Stop", () => state.work.abort(), { "data-do": "stop" }),
-          ),
+        attemptBar(state),
       ),
       element(
         "ul",
@@ -131,7 +91,7 @@ export class ClaimCards {
   }
 
   /** What is known of a property, and the test that refutes it. */
-  #known({ circuit }: ClaimEntry, known: DecidedProperty | undefined): (HTMLElement | null)[] {
+  #known({ circuit }: Claim, known: DecidedProperty | undefined): (HTMLElement | null)[] {
     if (known === undefined) {
       return [];
     }

@@ -1,25 +1,26 @@
 // The tests of the program: run them, and go from a failing row to its line or to its moment in the run.
 
-import { CANCELLED, type Connection } from "../connection";
+import type { Connection } from "../connection";
 import { button, element, fill } from "../element";
 import type { LiveSwarm } from "../live/swarm";
-import { Observable } from "../observable";
 import type { Program } from "../program";
 import type { TestEntry, Level, TestVerdict } from "../protocol";
 import { RequestError } from "../request";
+import { type Attempt, attemptBar, Attempts, placeOf } from "./attempts";
 import { ClaimCards } from "./claims";
 import { verdictTable } from "./verdict";
 
-/** What is known of a test. */
-export type TestState =
-  | { state: "running"; done: number; all: number; work: AbortController }
-  | { state: "done"; level: Level; results: TestVerdict[] }
-  | { state: "failed"; message: string };
+interface Tested {
+  level: Level;
+  results: TestVerdict[];
+}
+
+export type TestState = Attempt<Tested>;
 
 export class TestsPanel {
   readonly host = element("div", { class: "tests" });
-  /** The results by the number of the test, for the present text. */
-  readonly states = new Observable(new Map<number, TestState>());
+  readonly #attempts = new Attempts<Tested>();
+  readonly states = this.#attempts.states;
   readonly claims: ClaimCards;
   readonly #list = element("div", { class: "list" });
   readonly #status = element("p", { class: "status", role: "status", "aria-live": "polite" });
@@ -52,28 +53,12 @@ export class TestsPanel {
       this.#list,
       this.claims.host,
     );
-    program.checked.on(() => {
-      this.#stopAll();
-      this.states.set(new Map());
-    });
+    program.checked.on(() => this.#attempts.clear());
     this.states.follow(() => this.#build());
   }
 
   #tests(): TestEntry[] {
     return this.program.checked.value?.tests ?? [];
-  }
-
-  #set(index: number, state: TestState): void {
-    this.states.value.set(index, state);
-    this.states.notify();
-  }
-
-  #stopAll(): void {
-    for (const state of this.states.value.values()) {
-      if (state.state === "running") {
-        state.work.abort();
-      }
-    }
   }
 
   async #runAll(level: Level): Promise<void> {
@@ -90,43 +75,23 @@ export class TestsPanel {
     this.#status.textContent = "";
   }
 
-  /** Where a test is in the present text. */
-  #placeOf({ circuit, title, index }: TestEntry): number | undefined {
-    const tests = this.#tests();
-    const same = tests.filter(test => test.circuit === circuit && test.title === title);
-    return (same.find(test => test.index === index) ?? same[0] ?? tests[index])?.index;
-  }
-
   async #run(test: TestEntry, level: Level): Promise<void> {
     await this.#settle();
-    const index = this.#placeOf(test);
+    const index = placeOf(test, this.#tests());
     if (index === undefined) {
       this.#status.textContent = "the program has no such test any more";
       return;
     }
-    const work = new AbortController();
-    const states = this.states.value;
-    this.#set(index, { state: "running", done: 0, all: 0, work });
     const fields = { path: this.program.path.value, test: index, level };
-    const progress = (done: number, all: number): void => this.#set(index, { state: "running", done, all, work });
-    try {
-      const { results } = await this.connection.request("test", fields, { signal: work.signal, progress });
-      // After an edit the result is about a test that is no longer there.
-      if (states === this.states.value) {
-        this.#set(index, { state: "done", level, results });
-      }
-    } catch (error) {
-      if (error instanceof RequestError && states === this.states.value) {
-        const message =
-          error.code === CANCELLED ? "stopped" : `${error.message}${error.help === null ? "" : `; ${error.help}`}`;
-        this.#set(index, { state: "failed", message });
-      }
-    }
+    await this.#attempts.run(index, async sending => ({
+      level,
+      ...(await this.connection.request("test", fields, sending)),
+    }));
   }
 
   async #watchDeclared(test: TestEntry): Promise<void> {
     await this.#settle();
-    const index = this.#placeOf(test);
+    const index = placeOf(test, this.#tests());
     if (index !== undefined) {
       await this.#watch(test.circuit, index);
     }
@@ -217,23 +182,8 @@ export class TestsPanel {
   }
 
   #result(state: TestState | undefined): HTMLElement | null {
-    if (state === undefined) {
-      return null;
-    }
-    if (state.state === "failed") {
-      return element("span", { class: "verdict fail" }, state.message);
-    }
-    if (state.state === "running") {
-      return element(
-        "span",
-        { class: "verdict" },
-        element("progress", {
-          max: Math.max(1, state.all),
-          value: state.all === 0 ? null : state.done,
-          "aria-label": "Progress",
-        }),
-        button("Stop", () => state.work.abort(), { "data-do": "stop" }),
-      );
+    if (state?.state !== "done") {
+      return attemptBar(state);
     }
     const passed = state.results.every(verdict => verdict.passed);
     const proof = state.results[0]?.proof;

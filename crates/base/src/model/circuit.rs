@@ -3,6 +3,8 @@
 
 use std::fmt;
 
+use serde::Serialize;
+
 use super::Table;
 use crate::source::Span;
 
@@ -365,7 +367,9 @@ impl fmt::Display for Operator {
 }
 
 /// A circuit with values for its parameters.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(with = "String", inline))]
+#[serde(into = "String")]
 pub struct Instance {
     pub circuit: String,
     /// The parameters in order; missing ones at the end have their defaults.
@@ -375,6 +379,12 @@ pub struct Instance {
 impl From<&str> for Instance {
     fn from(circuit: &str) -> Self {
         Self { circuit: circuit.to_owned(), arguments: Vec::new() }
+    }
+}
+
+impl From<Instance> for String {
+    fn from(instance: Instance) -> Self {
+        instance.to_string()
     }
 }
 

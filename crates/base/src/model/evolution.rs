@@ -138,6 +138,16 @@ impl Axis {
             Self::Class => Function::all_of(inputs).filter(|function| function.class()[0] == *function).count(),
         }
     }
+
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Count { of: Count::Voxels, .. } => "voxels",
+            Self::Count { of: Count::Active, .. } => "active",
+            Self::Count { of: Count::Sensory, .. } => "sensory",
+            Self::Behavior => "behavior",
+            Self::Class => "class",
+        }
+    }
 }
 
 /// The kind of voxels on a count axis.

@@ -136,6 +136,14 @@ pub struct Provenance {
     pub evaluations: u64,
 }
 
+impl Provenance {
+    /// Of a body that no evolution made.
+    pub fn unevolved(maker: &str) -> Self {
+        let (program, version) = (crate::PROGRAM.to_owned(), crate::VERSION.to_owned());
+        Self { program, version, evolution: maker.to_owned(), ..Self::default() }
+    }
+}
+
 /// Robots to build circuits from.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Library {

@@ -6,20 +6,24 @@ use super::{Base, Circuit, CircuitId, Column, Instance, NamedWorld, Value};
 use crate::source::Span;
 
 /// A declared test, as bits. The source is needed for messages only.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CircuitTest {
     pub circuit: Instance,
     /// The title; empty if there is none.
     pub title: String,
+    #[serde(skip)]
     pub span: Span,
     pub file: String,
     pub line: usize,
     pub inputs: Vec<Column>,
     pub outputs: Vec<Column>,
+    #[serde(skip)]
     pub stimulation: Stimulation,
     /// The file of its rows, if the source does not have them.
+    #[serde(skip)]
     pub rows_from: Option<RowSource>,
     /// The worlds that the test names: its swarms run in each of them. If there are none, each runs in its own.
+    #[serde(skip)]
     pub worlds: Vec<NamedWorld>,
 }
 

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use nbc_base::model::Character;
-use nbc_session::report::VoxelLook;
+use nbc_session::report::{ArchiveAxis, EliteData, Listing, VoxelLook};
 
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -16,20 +16,12 @@ pub(crate) struct RobotCards {
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct RobotCard {
-    pub(crate) name: String,
-    pub(crate) function: &'static str,
-    pub(crate) letters: String,
+    #[serde(flatten)]
+    pub(crate) listing: Listing,
     pub(crate) about: String,
-    /// The rows from the top, a material's code a character.
-    pub(crate) body: Vec<String>,
-    pub(crate) width: usize,
-    pub(crate) height: usize,
     /// The numbers of the corner points around each voxel, and its index in the looks.
     pub(crate) voxels: Vec<[usize; 5]>,
     pub(crate) points: usize,
-    pub(crate) clock: u32,
-    pub(crate) margin: f64,
-    pub(crate) errors: f64,
     pub(crate) shipped: bool,
     /// Whether it is of the materials that can be painted, so that it can be probed.
     pub(crate) painted: bool,
@@ -85,25 +77,9 @@ pub(crate) struct KeptRobot {
 pub(crate) struct ArchiveChange {
     pub(crate) id: u64,
     pub(crate) generation: u32,
-    pub(crate) axes: Vec<AxisEntry>,
-    pub(crate) niches: Vec<NicheEntry>,
+    pub(crate) axes: Vec<ArchiveAxis>,
+    pub(crate) niches: Vec<EliteData>,
     pub(crate) evaluations: u64,
-}
-
-/// The name of an axis and its number of bins.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub(crate) struct AxisEntry(pub(crate) &'static str, pub(crate) usize);
-
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub(crate) struct NicheEntry {
-    /// The bin on each axis.
-    pub(crate) place: Vec<u16>,
-    pub(crate) fitness: [f64; 2],
-    pub(crate) body: Vec<String>,
-    pub(crate) letters: String,
-    pub(crate) function: &'static str,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

@@ -65,6 +65,7 @@ pub(super) enum RequestResult {
     Program(ProgramReport),
     Compile(SwarmAnswer),
     Replay(SwarmAnswer),
+    Settle(SettledOutputs),
     Test(TestAnswer),
     Prove(DecidedClaim),
     Robots(RobotCards),

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::written::WrittenProgram;
 use nbc_base::budget::Limit;
 use nbc_base::diag::Finding;
-use nbc_base::model::{Claim, Column, Property};
+use nbc_base::model::{Claim, Column};
 use nbc_swarm::TestVerdict;
 
 #[derive(Clone, Debug, Serialize)]
@@ -15,7 +15,7 @@ pub(crate) struct ProgramReport {
     pub(crate) diagnostics: Vec<Finding>,
     pub(crate) circuits: Vec<CircuitEntry>,
     pub(crate) tests: Vec<TestEntry>,
-    pub(crate) claims: Vec<ClaimEntry>,
+    pub(crate) claims: Vec<Claim>,
     pub(crate) written: WrittenProgram,
 }
 
@@ -53,36 +53,6 @@ pub(crate) struct TestRowEntry {
     pub(crate) line: usize,
     pub(crate) inputs: Vec<String>,
     pub(crate) outputs: Vec<String>,
-}
-
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub(crate) struct ClaimEntry {
-    index: usize,
-    circuit: String,
-    title: String,
-    line: usize,
-    properties: Vec<PropertyEntry>,
-}
-
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub(crate) struct PropertyEntry {
-    property: String,
-    line: usize,
-}
-
-impl ClaimEntry {
-    pub(crate) fn of(index: usize, claim: &Claim) -> Self {
-        let property = |one: &Property| PropertyEntry { property: one.text.clone(), line: one.line };
-        Self {
-            index,
-            circuit: claim.circuit.to_string(),
-            title: claim.title.clone(),
-            line: claim.line,
-            properties: claim.wanted().map(property).collect(),
-        }
-    }
 }
 
 /// A result for each swarm of its circuit in each world of the test.

@@ -12,6 +12,13 @@ pub(crate) struct SwarmAnswer {
     pub(crate) swarm: Box<ShownSwarm>,
 }
 
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) struct SettledOutputs {
+    /// For each row of inputs; none of a swarm with a state.
+    pub(crate) outputs: Option<Vec<String>>,
+}
+
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct ShownSwarm {

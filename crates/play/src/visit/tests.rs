@@ -225,6 +225,21 @@ fn what_refutes_a_property_is_watched_like_a_test() {
 }
 
 #[test]
+fn the_outputs_of_a_swarm_without_a_state_are_known_before_it_settles() {
+    let mut tab = Tab::new();
+    let text = "circuit half(a, b) -> (s, c) { s = a xor b c = a and b }
+        circuit latch(d, e) -> (q) { q = if e then d else q }";
+    tab.ask(&json!({ "id": 1, "do": "program", "path": "two.nb", "text": text }));
+    let mut settle = |circuit: &str, rows: &[&str]| {
+        tab.ask(&json!({ "id": 2, "do": "compile", "path": "two.nb", "circuit": circuit, "swarm": null }));
+        tab.ask(&json!({ "id": 3, "do": "settle", "rows": rows })).remove(0)
+    };
+    assert_eq!(settle("half", &["00", "01", "10", "11"])["ok"]["outputs"], json!(["00", "10", "10", "01"]));
+    assert_eq!(settle("latch", &["00"])["ok"], json!({ "outputs": null }));
+    assert_eq!(settle("half", &["0"])["error"]["message"], "expected 2 input bits, such as `00`");
+}
+
+#[test]
 fn work_that_takes_too_long_is_stopped() {
     let mut tab = Tab::new();
     let evolve = json!({ "id": 7, "do": "evolve", "body": null, "box": [2, 2], "generations": 1000, "seed": 1 });
