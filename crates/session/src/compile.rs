@@ -34,14 +34,24 @@ impl Compiled {
     }
 
     pub(super) fn in_world(&self, world: NamedWorld) -> Self {
-        let mut moved = self.clone();
+        let mut moved = Self { plan: self.plan.clone().in_world(world), ..self.clone() };
         for member in &mut moved.assembly.members {
-            let own = self.plan.library.robots.iter().find(|robot| robot.name == member.robot.name);
-            member.robot.body.clone_from(&own.expect("a member is of the library").body);
+            let own = moved.plan.library.robots.iter().find(|robot| robot.name == member.robot.name);
+            let own = own.expect("a member is of the library");
+            member.robot.body.clone_from(&own.body);
+            member.robot.character.clock = own.character.clock;
         }
-        let assembly = moved.assembly.in_world(world.world);
-        moved.plan.world = world;
-        Self { assembly, ..moved }
+        if self.pace() != moved.pace() {
+            moved.mapping.cells = nbc_swarm::cells(&moved.plan.library);
+            moved.timing = moved.plan.timing(&moved.mapping);
+        }
+        Self { assembly: moved.assembly.in_world(moved.plan.world.world), ..moved }
+    }
+
+    /// All of its world on which the times of its robots depend.
+    pub(super) fn pace(&self) -> (u32, f64) {
+        let world = &self.plan.world.world;
+        (world.lateness(), world.noise.drift)
     }
 }
 
@@ -130,8 +140,7 @@ pub(super) fn compile(
 ) -> Result<Compiled, Vec<Diagnostic>> {
     let mapping = map(source, &plan, options, place, Limit::SwarmGates)?;
     permit(&mapping.netlist, Limit::Robots, place)?;
-    let mut timing = mapping.timing();
-    timing.hold = plan.stretched(timing.hold as usize) as u32;
+    let timing = plan.timing(&mapping);
     let assembly = match &mapping.waves {
         None => nbc_swarm::assemble(&mapping.netlist, &plan.library),
         Some(machine) => {

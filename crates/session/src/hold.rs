@@ -17,6 +17,12 @@ pub(super) fn row_holds(rows: &[TestRow], netlist: &Netlist, compiled: &Compiled
     holds.into_iter().zip(resting_outputs(rows, netlist)).map(row_hold).collect()
 }
 
+/// The holds of the same rows in the world of a compiled circuit.
+pub(super) fn again(rows: &[TestRow], row_holds: &[RowHold], compiled: &Compiled) -> Vec<RowHold> {
+    let holds = holds(rows, compiled, compiled.plan.hold).into_iter().zip(row_holds);
+    holds.map(|([hold, needed], before)| RowHold { hold, needed, rests: before.rests.clone() }).collect()
+}
+
 /// For each row, the cycles for which it is held, and those that its robots need.
 fn holds(rows: &[TestRow], compiled: &Compiled, usual: Hold) -> Vec<[usize; 2]> {
     let window = compiled.plan.window;

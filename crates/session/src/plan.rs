@@ -1,11 +1,13 @@
 //! The plan of a circuit's swarm: the declared swarm with its robots, hold and window.
 
 use crate::choice::{check_swarm_is_clear, declared_swarm, swarms_of};
+use crate::mapping::Mapping;
 use crate::options::CompileOptions;
 use crate::robots::RobotSources;
 use crate::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Hold, Instance, Library, NamedWorld, Program, RegisterStyle, Swarm, WaveTimes};
+use nbc_circuit::Timing;
 use nbc_lang::check::DEFAULT_LIBRARY;
 
 #[derive(Clone, Debug)]
@@ -78,6 +80,12 @@ impl Plan {
             *clock = *clock + world.world.lateness() - self.world.world.lateness();
         }
         Self { world, ..self }
+    }
+
+    pub(super) fn timing(&self, mapping: &Mapping) -> Timing {
+        let mut timing = mapping.timing();
+        timing.hold = self.stretched(timing.hold as usize) as u32;
+        timing
     }
 
     /// Cycles of the world in which each robot makes so many of its own.

@@ -109,8 +109,7 @@ pub(super) fn cases(
     let mut cases = Vec::new();
     for plan in plans {
         let worlds = if test.worlds.is_empty() { vec![plan.world.clone()] } else { test.worlds.clone() };
-        let slowest = worlds.iter().max_by(|a, b| slowness(a).total_cmp(&slowness(b)));
-        let plan = plan.in_world(slowest.expect("there is a world").clone());
+        let plan = plan.in_world(worlds[0].clone());
         let mut compiled = compile(program, netlist.clone(), plan, &options.compile.mapping(), test.span)?;
         if level.is_none() && compiled.assembly.members.len() >= LARGE {
             return logic(netlist);
@@ -133,24 +132,12 @@ pub(super) fn cases(
                 TestTiming::Holds(row_holds)
             }
         };
-        let rows: Arc<[TestRow]> = rows.into();
-        for world in worlds {
-            cases.push(case(TestSubject::Robots(Box::new(TimedTest {
-                test: own.clone(),
-                rows: rows.clone(),
-                compiled: compiled.in_world(world),
-                timing: timing.clone(),
-                ends_at_failure: false,
-                printed: printed.clone(),
-            }))));
-        }
+        let first =
+            TimedTest { test: own.clone(), rows: rows.into(), compiled, timing, ends_at_failure: false, printed };
+        let timed = |world| Box::new(first.in_world(world));
+        cases.extend(worlds.into_iter().map(|world| case(TestSubject::Robots(timed(world)))));
     }
     Ok(cases)
-}
-
-/// By how much robots take longer in a world.
-fn slowness(world: &NamedWorld) -> f64 {
-    world.world.noise.drift + f64::from(world.world.lateness())
 }
 
 fn permit_cycles(test: &CircuitTest, cycles: u64) -> Result<(), Vec<Diagnostic>> {
@@ -306,7 +293,7 @@ impl TestCase {
         let mut trial = self.clone();
         if let TestSubject::Robots(timed) = &mut trial.subject {
             let name = timed.compiled.plan.world.name.clone();
-            timed.compiled = timed.compiled.in_world(NamedWorld { name, world });
+            **timed = timed.in_world(NamedWorld { name, world });
             timed.ends_at_failure = self.test.rows_from.as_ref().is_none_or(|from| from.at_least.is_none());
         }
         trial
