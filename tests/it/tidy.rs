@@ -289,7 +289,7 @@ const ROOMS: [(&str, usize); 16] = [
     ("crates/play", 6_300),
     ("crates/play-server", 1_650),
     ("crates/report", 8_450),
-    ("crates/session", 5_950),
+    ("crates/session", 6_000),
     ("crates/sim", 6_900),
     ("crates/store", 4_300),
     ("crates/swarm", 8_100),
