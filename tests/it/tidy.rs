@@ -281,7 +281,7 @@ fn messages_are_written_in_wording_files() {
 /// The most lines of Rust in each room. Whoever needs more raises a figure here, and says why in the commit.
 const ROOMS: [(&str, usize); 16] = [
     ("crates/base", 7_150),
-    ("crates/circuit", 25_300),
+    ("crates/circuit", 25_200),
     ("crates/cluster", 2_700),
     ("crates/lang", 12_300),
     ("crates/learn", 2_650),
@@ -295,7 +295,7 @@ const ROOMS: [(&str, usize); 16] = [
     ("crates/swarm", 8_100),
     ("crates/web", 650),
     ("src", 9_100),
-    ("tests/it", 19_880),
+    ("tests/it", 20_050),
 ];
 
 #[test]
