@@ -419,7 +419,7 @@ fn random_machines_compile_in_each_form_and_do_the_same() {
 fn random_machines_of_verilog_compile_in_each_form_and_do_the_same() {
     let Some(_) = SLANG.find() else { return };
     let mut tally = Tally::new();
-    check_verilog(0..3, &mut tally);
+    check_verilog(0..6, &mut tally);
     assert!(tally.keys().any(|what| what.ends_with("proved")), "{tally:#?}");
 }
 
