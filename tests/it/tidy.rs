@@ -286,7 +286,7 @@ const ROOMS: [(&str, usize); 16] = [
     ("crates/lang", 12_300),
     ("crates/learn", 2_650),
     ("crates/lsp", 5_350),
-    ("crates/play", 6_300),
+    ("crates/play", 6_330),
     ("crates/play-server", 1_650),
     ("crates/report", 8_450),
     ("crates/session", 6_000),
