@@ -278,7 +278,7 @@ mod tests {
             body: Body::parse(&rows[i % 2], &Palette::paper()).unwrap(),
             clock: 1,
             senses: vec![StimulusSource::Robot((i + robots - 1) % robots), StimulusSource::Input(0)],
-            start: i % 3 == 0,
+            start: i.is_multiple_of(3),
             held: vec![Vec::new(); 2],
         };
         SwarmTask::new((0..robots).map(member).collect(), world, vec![vec![true]], 1).assembly.in_world(world)

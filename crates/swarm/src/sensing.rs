@@ -79,7 +79,7 @@ impl Sensing {
 
     /// Takes the outputs as they are after this many env steps.
     pub fn take(&mut self, env_steps: u32, bits: &[bool]) {
-        if env_steps >= self.start && (env_steps % CYCLE_STEPS != 0 || env_steps.is_multiple_of(self.beat)) {
+        if env_steps >= self.start && (!env_steps.is_multiple_of(CYCLE_STEPS) || env_steps.is_multiple_of(self.beat)) {
             self.outputs.clear();
             self.outputs.extend_from_slice(bits);
         }
