@@ -32,11 +32,21 @@ const CLOCKS: usize = 600;
 /// Clocks a second of one processor at the level of logic.
 const SPEED: f64 = 100_000.0;
 
+/// The program with one swarm, and with the libraries that it uses.
+fn with_swarm(text: &str, fields: &str) -> String {
+    let is_used = |line: &str| match line.split(' ').collect::<Vec<_>>()[..] {
+        ["swarm", ..] => false,
+        ["library", name, ..] => fields.contains(&format!("library: {name}")),
+        _ => true,
+    };
+    let own = text.lines().filter(|line| is_used(line)).collect::<Vec<_>>().join("\n");
+    format!("{own}\nswarm measured {{ circuit: riscv, {fields} }}\n")
+}
+
 /// The processor with latches in one of their forms.
 fn measure(text: &str, fields: &str, objective: MappingObjective) -> Result<(usize, f64, usize), String> {
     let mut world = MemoryWorld::default();
-    let own = text.lines().filter(|line| !line.starts_with("swarm ")).collect::<Vec<_>>().join("\n");
-    world.insert("m.nb", format!("{own}\nswarm measured {{ circuit: riscv, {fields} }}\n"));
+    world.insert("m.nb", with_swarm(text, fields));
     let mut session = Session::new(world);
     let checked = session.open("m.nb").map_err(|error| error.list[0].message.clone())?;
     let test: &CircuitTest = &checked.program.tests[0];
@@ -52,8 +62,7 @@ fn measure(text: &str, fields: &str, objective: MappingObjective) -> Result<(usi
 /// The processor as a wave machine: robots, cycles of a step and threads.
 fn measure_waves(text: &str, fields: &str) -> Result<(usize, usize, u32), String> {
     let mut world = MemoryWorld::default();
-    let own = text.lines().filter(|line| !line.starts_with("swarm ")).collect::<Vec<_>>().join("\n");
-    world.insert("m.nb", format!("{own}\nswarm measured {{ circuit: riscv, registers: waves, {fields} }}\n"));
+    world.insert("m.nb", with_swarm(text, &format!("registers: waves, {fields}")));
     let mut session = Session::new(world);
     let checked = session.open("m.nb").map_err(|error| error.list[0].message.clone())?;
     let compiled = session.compile(&checked, &"riscv".into(), &CompileOptions::default());

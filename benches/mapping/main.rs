@@ -44,7 +44,7 @@ fn reference(name: &str) -> Option<[[Option<u32>; 2]; 3]> {
 /// The circuits of `tests/benchmarks` and the generated ones, with their names.
 fn designs() -> Vec<(String, Design)> {
     let read = files().into_iter().map(|path| (path.file_stem().unwrap().display().to_string(), read(&path)));
-    let made = generated().into_iter().map(|logic| (logic.name.clone(), Design::new(logic, Vec::new())));
+    let made = generated().into_iter().map(|logic| (logic.name.clone(), Design::new(logic)));
     read.chain(made).collect()
 }
 
@@ -65,8 +65,9 @@ impl Row {
         let mut row = Self { name, cells: [0; 3], seconds: [0.0; 3], abc: [None; 3], optimum: [None; 3] };
         for (i, (_, library)) in libraries().into_iter().enumerate() {
             let started = processor_seconds();
-            let mapped = map_with(&design.logic, &library, &MapOptions { effort, ..MapOptions::default() }).unwrap();
-            prove(&design.logic, &mapped).unwrap();
+            let logic = design.opened();
+            let mapped = map_with(&logic, &library, &MapOptions { effort, ..MapOptions::default() }).unwrap();
+            prove(&logic, &mapped).unwrap();
             row.seconds[i] = processor_seconds() - started;
             row.cells[i] = mapped.cells().count();
             row.abc[i] = measured.map(|measured| measured[i]).into_iter().chain(known[i][0]).min();

@@ -130,7 +130,7 @@ def test_a_report_is_a_page_with_a_player(tmp_path, root):
     report = program.report(tmp_path / "page.html")
     page = (tmp_path / "page.html").read_text()
     assert report.passed and page == report.page and page.startswith("<!") and "<script" in page
-    assert report._repr_html_().startswith("<iframe srcdoc=")
+    assert report._repr_html_().startswith('<iframe sandbox="allow-scripts" srcdoc=')
     with pytest.raises(nbc.NbcError):
         report.save(tmp_path / "no/folder.html")
 

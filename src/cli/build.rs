@@ -109,8 +109,8 @@ fn emit(emit: Emit, mapping: Mapping, hardened: Hardened) -> String {
     match emit {
         Emit::Netlist => mapping.netlist.to_string(),
         Emit::Passes => describe_passes(mapping.source),
-        Emit::Blif => blif::write(&Design::new(mapping.netlist, Vec::new())),
-        Emit::Verilog => verilog::write(&Design::new(mapping.netlist, Vec::new())),
+        Emit::Blif => blif::write(&Design::new(mapping.netlist)),
+        Emit::Verilog => verilog::write(&Design::new(mapping.netlist)),
         Emit::Dot => dot::write(&mapping.netlist),
         Emit::Timing => describe_timing(&mapping),
         Emit::Json => {

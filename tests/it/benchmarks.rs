@@ -1,6 +1,6 @@
 //! The compiler on the benchmark circuits.
 
-use nbc_circuit::formats::{Design, blif};
+use nbc_circuit::formats::blif;
 use nbc_circuit::{Effort, MapOptions, map_with, prove};
 
 use crate::designs::{files, libraries, read};
@@ -16,11 +16,12 @@ fn abc_proves_every_written_blif_of_the_benchmarks() {
     for path in files() {
         let design = read(&path);
         for (name, library) in libraries() {
-            let logic = map_with(&design.logic, &library, &options).unwrap();
-            prove(&design.logic, &logic).unwrap();
+            let source = design.opened();
+            let logic = map_with(&source, &library, &options).unwrap();
+            prove(&source, &logic).unwrap();
             let written = folder.path().join(format!("{}-{name}.blif", path.file_stem().unwrap().display()));
-            fs::write(&written, blif::write(&Design::new(logic, design.registers.clone()))).unwrap();
-            let command = if design.registers.is_empty() { "cec -n" } else { "dsec" };
+            fs::write(&written, blif::write(&design.closed(logic))).unwrap();
+            let command = if design.netlist.registers().next().is_none() { "cec -n" } else { "dsec" };
             script.push_str(&format!("{command} {} {}; ", path.display(), written.display()));
             pairs += 1;
         }

@@ -237,7 +237,7 @@ fn bench_prints_the_speed_as_json() {
     assert_eq!(boxes, ["5x5", "7x7", "10x10"]);
     let swarm = &figures["swarm"];
     assert!(
-        swarm["robots"] == 29
+        swarm["robots"] == 28
             && ["one_core", "different", "all_threads"].iter().all(|at| swarm[at].as_f64() > Some(0.0))
     );
     let evaluation = 80.0 * f64::from(CYCLE_STEPS * Constants::default().substeps);

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use nbc_base::model::{Function, Instance};
 use nbc_base::source::FileId;
-use nbc_circuit::formats::{CircuitFormat, Design, Forcing, Register, RegisterKind, aiger, blif, buses, dot, pla};
+use nbc_circuit::formats::{CircuitFormat, Design, Forcing, RegisterKind, aiger, blif, buses, dot, pla};
 use nbc_circuit::passes::{self, dissolve_wires};
-use nbc_circuit::{Cell, Guarded, Logic, Loops, NetId, Netlist, as_nands, elaborate, prove};
+use nbc_circuit::{Cell, Guarded, Logic, Loops, NetId, Netlist, RegisterNode, as_nands, elaborate, prove};
 use nbc_session::store::{self, CircuitFile, DiskWorld, TopModule};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
@@ -45,7 +45,7 @@ fn a_pla_that_was_written_is_the_same_circuit() {
     for netlist in found {
         let text = String::from_utf8(CircuitFormat::Pla.encode(&alone(netlist.clone())).unwrap()).unwrap();
         let read = pla::read(&text, FileId(0)).unwrap_or_else(|faults| panic!("{faults:?}\n{text}"));
-        proved(&netlist, &read.logic, &text);
+        proved(&netlist, &read.netlist, &text);
     }
     let (_, with) = by_memory();
     let message = CircuitFormat::Pla.encode(&alone(with[0].clone())).unwrap_err().message;
@@ -53,7 +53,7 @@ fn a_pla_that_was_written_is_the_same_circuit() {
 }
 
 fn alone(logic: Netlist) -> Design {
-    Design::new(logic, Vec::new())
+    Design::new(logic)
 }
 
 #[track_caller]
@@ -153,7 +153,7 @@ fn a_drawing_has_all_of_the_loops() {
 fn loops_of_the_gallery_read_back_from_blif() {
     for netlist in by_memory().1 {
         let text = blif::write(&alone(netlist.clone()));
-        same_loops(&netlist, blif::read(&text, FileId(0), None).unwrap().logic, &text);
+        same_loops(&netlist, blif::read(&text, FileId(0), None).unwrap().netlist, &text);
     }
 }
 
@@ -179,7 +179,7 @@ fn low_bits_first(netlist: &Netlist) -> Netlist {
     let text = blif::write(&alone(netlist.clone()));
     let is_port = |line: &str| line.starts_with(".inputs ") || line.starts_with(".outputs ");
     let lines = text.lines().map(|line| if is_port(line) { ordered(line) } else { line.to_owned() });
-    let mut netlist = blif::read(&lines.collect::<Vec<_>>().join("\n"), FileId(0), None).unwrap().logic;
+    let mut netlist = blif::read(&lines.collect::<Vec<_>>().join("\n"), FileId(0), None).unwrap().netlist;
     passes::run(&mut netlist).unwrap();
     netlist
 }
@@ -201,7 +201,7 @@ fn the_gallery_reads_back_from_verilog() {
     let Some(_) = SLANG.find() else { return };
     for netlist in by_memory().0.into_iter().filter(|netlist| netlist.cells().count() < 12) {
         let again = through_verilog(&alone(netlist.clone()));
-        proved(&low_bits_first(&netlist), &again.logic, &netlist.name);
+        proved(&low_bits_first(&netlist), &again.netlist, &netlist.name);
     }
 }
 
@@ -228,40 +228,45 @@ fn loops_of_the_gallery_read_back_from_verilog() {
     let even = by_memory().1.into_iter().filter(|netlist| netlist.cells().count() < 50).take(4);
     for netlist in even.map(ordered).map(named_for_verilog) {
         let text = String::from_utf8(CircuitFormat::Verilog.encode(&alone(netlist.clone())).unwrap()).unwrap();
-        same_loops(&netlist, through_verilog(&alone(netlist.clone())).logic, &text);
+        same_loops(&netlist, through_verilog(&alone(netlist.clone())).netlist, &text);
     }
 }
 
 /// Registers of these kinds, each of which takes a function of all registers and an input. Kinds from 4 on have a
 /// reset, and those from 8 on a set, too.
 fn registers(kinds: &[(u8, Option<bool>)]) -> Design {
-    let mut logic = Netlist::new("machine");
-    let ports = ["d", "clk"].map(|name| logic.add_input(name));
-    let states: Vec<_> = (0..kinds.len()).map(|at| logic.add_input(format!("s[{at}]"))).collect();
+    let mut netlist = Netlist::new("machine");
+    let ports = ["d", "clk"].map(|name| netlist.add_input(name));
+    let word = [RegisterKind::Rising, RegisterKind::Falling, RegisterKind::High, RegisterKind::Low];
+    let forcing = [Forcing::Never, Forcing::ToStart, Forcing::SetReset];
+    let node = |(at, &(kind, start)): (usize, &(u8, Option<bool>))| RegisterNode {
+        kind: word[usize::from(kind % 4)],
+        forcing: forcing[usize::from(kind / 4)],
+        start: if kind / 4 == 1 { start.or(Some(false)) } else { start },
+        name: Some(format!("s[{at}]")),
+        span: None,
+    };
+    let states: Vec<_> = kinds.iter().enumerate().map(|kind| netlist.add_loose_register(node(kind))).collect();
     let mut sum = ports[0];
     let mut nexts = Vec::new();
     for &state in &states {
-        sum = logic.add_gate(Function::XOR, &[sum, state]);
-        nexts.push(logic.add_gate(Function::NAND, &[sum, ports[0]]));
+        sum = netlist.add_gate(Function::XOR, &[sum, state]);
+        nexts.push(netlist.add_gate(Function::NAND, &[sum, ports[0]]));
     }
-    logic.add_output("y", sum);
-    nexts.iter().enumerate().for_each(|(at, &next)| _ = logic.add_output(format!("s[{at}]_next"), next));
-    let word = [RegisterKind::Rising, RegisterKind::Falling, RegisterKind::High, RegisterKind::Low];
-    for (at, (kind, _)) in kinds.iter().enumerate() {
-        for name in ["reset", "set"][..usize::from(kind / 4)].iter().rev() {
-            let net = if *name == "set" { sum } else { ports[0] };
-            logic.add_output(format!("s[{at}]_{name}"), net);
-        }
+    netlist.add_output("y", sum);
+    for ((&state, next), (kind, _)) in states.iter().zip(nexts).zip(kinds) {
+        let forces = [vec![], vec![ports[0]], vec![sum, ports[0]]][usize::from(kind / 4)].clone();
+        let pins = [next, ports[1]].into_iter().chain(forces);
+        (0..).zip(pins).for_each(|(pin, net)| netlist.connect(state, pin, net));
     }
-    let forcing = [Forcing::Never, Forcing::ToStart, Forcing::SetReset];
-    let register = |(at, &(kind, start)): (usize, &(u8, Option<bool>))| Register {
-        name: format!("s[{at}]"),
-        kind: word[usize::from(kind % 4)],
-        clock: Some("clk".to_owned()),
-        start: if kind / 4 == 1 { start.or(Some(false)) } else { start },
-        forcing: forcing[usize::from(kind / 4)],
-    };
-    Design::new(logic, kinds.iter().enumerate().map(register).collect())
+    Design::new(netlist)
+}
+
+/// Each register by its name, with the net that clocks it.
+fn described(design: &Design) -> BTreeMap<String, (RegisterNode, String)> {
+    let netlist = &design.netlist;
+    let clock = |id: NetId| netlist.net_name(netlist.pins(id)[1]);
+    netlist.registers().map(|(id, node)| (netlist.net_name(id), (node.clone(), clock(id)))).collect()
 }
 
 fn kinds(most: u8) -> impl Strategy<Value = Vec<(u8, Option<bool>)>> {
@@ -276,8 +281,8 @@ proptest! {
         let design = registers(&kinds);
         let text = blif::write(&design);
         let again = blif::read(&text, FileId(0), None).unwrap();
-        prop_assert_eq!(&again.registers, &design.registers);
-        proved(&design.logic, &again.logic, &text);
+        prop_assert_eq!(described(&again), described(&design));
+        proved(&design.opened(), &again.opened(), &text);
     }
 
     #[test]
@@ -285,8 +290,8 @@ proptest! {
         let design = registers(&kinds);
         for binary in [false, true] {
             let again = aiger::read(&aiger::write(&design, binary), None).unwrap();
-            prop_assert_eq!(&again.registers, &design.registers);
-            same(&design.logic, &again.logic, "AIGER");
+            prop_assert_eq!(described(&again), described(&design));
+            same(&design.opened(), &again.opened(), "AIGER");
         }
     }
 }
@@ -299,25 +304,21 @@ fn registers_read_back_from_verilog() {
     let forced = [(4, Some(true)), (5, Some(false))];
     let design = registers(&[&kinds[..], &forced].concat());
     let again = through_verilog(&design);
-    let registers = |design: &Design| {
-        let all = design.registers.iter().map(|register| (register.name.clone(), format!("{register:?}")));
-        all.collect::<BTreeMap<_, _>>()
-    };
     // What starts anyhow starts at 0 in Verilog; BLIF has no start for a register with a set and a reset.
-    let mut written = design.clone();
-    for register in &mut written.registers {
+    let mut written = described(&design);
+    for (register, _) in written.values_mut() {
         register.start = (register.forcing != Forcing::SetReset).then_some(register.starts_at());
     }
-    assert_eq!(registers(&again), registers(&written));
-    let mut both = [Logic::new(&design.logic), Logic::new(&again.logic)];
-    let names: Vec<_> = design.logic.inputs().iter().map(|&id| design.logic.net_name(id)).collect();
+    assert_eq!(described(&again), written);
+    let opened = [&design, &again].map(Design::opened);
+    let mut both = [0, 1].map(|at| Logic::new(&opened[at]));
+    let names = opened[0].net_names(opened[0].inputs());
     for pattern in 0..1u32 << names.len() {
         let value = |name: &String| pattern >> names.iter().position(|known| known == name).unwrap() & 1 == 1;
-        let mut shown = [&design, &again].into_iter().zip(&mut both).map(|(design, logic)| {
-            let name = |&id: &NetId| design.logic.net_name(id);
-            let inputs: Vec<bool> = design.logic.inputs().iter().map(|id| value(&name(id))).collect();
-            let mut shown: BTreeMap<_, _> =
-                design.logic.outputs().iter().map(name).zip(logic.settle(&inputs).unwrap()).collect();
+        let mut shown = opened.iter().zip(&mut both).map(|(opened, logic)| {
+            let inputs: Vec<bool> = opened.net_names(opened.inputs()).iter().map(value).collect();
+            let outputs = opened.net_names(opened.outputs()).into_iter();
+            let mut shown: BTreeMap<_, _> = outputs.zip(logic.settle(&inputs).unwrap()).collect();
             // A reset is stronger than a set, which need not be the same then.
             let reset = |name: &String| shown.get(&name.replace("_set", "_reset")).copied().unwrap_or(false);
             let hidden: Vec<_> = shown.keys().filter(|&name| name.ends_with("_set") && reset(name)).cloned().collect();

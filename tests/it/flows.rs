@@ -91,7 +91,7 @@ fn areas(printed: &str) -> Vec<u32> {
 fn abc_finds_the_best_full_adder_of_all_cells() {
     let netlist = full_adder();
     let folder = tempfile::tempdir().unwrap();
-    let Some([nands, _, all]) = fewest_of_abc(&Design::new(netlist, Vec::new()), folder.path()) else {
+    let Some([nands, _, all]) = fewest_of_abc(&Design::new(netlist), folder.path()) else {
         return;
     };
     assert_eq!(all, 5);

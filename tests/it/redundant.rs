@@ -2,9 +2,9 @@
 
 use nbc_base::model::Function;
 use nbc_circuit::correspondence::reduce;
-use nbc_circuit::formats::{Design, Forcing, Register, RegisterKind};
+use nbc_circuit::formats::{Design, Forcing, RegisterKind};
 use nbc_circuit::network::View;
-use nbc_circuit::{NetId, Netlist};
+use nbc_circuit::{NetId, Netlist, RegisterNode};
 use proptest::prelude::*;
 
 use crate::support::*;
@@ -72,40 +72,41 @@ fn recipe() -> impl Strategy<Value = Recipe> {
 }
 
 fn machine(recipe: &Recipe) -> Design {
-    let mut logic = Netlist::new("machine");
-    let mut nets: Vec<NetId> = ["x", "y"].map(|name| logic.add_input(name)).to_vec();
-    nets.extend((0..recipe.len()).map(|at| logic.add_input(format!("s{at}"))));
+    let mut netlist = Netlist::new("machine");
+    let mut nets: Vec<NetId> = ["x", "y"].map(|name| netlist.add_input(name)).to_vec();
+    for (at, &(.., falls, start)) in recipe.iter().enumerate() {
+        let kind = if falls { RegisterKind::Falling } else { RegisterKind::Rising };
+        let (forcing, name) = (Forcing::Never, Some(format!("s{at}")));
+        nets.push(netlist.add_loose_register(RegisterNode { kind, forcing, start, name, span: None }));
+    }
     let net = |at: usize| nets[at % nets.len()];
     let nexts: Vec<NetId> =
-        recipe.iter().map(|&(bits, a, b, ..)| logic.add_gate(Function::new(bits), &[net(a), net(b)])).collect();
-    let parity = nets[2..].iter().copied().reduce(|sum, state| logic.add_gate(Function::XOR, &[sum, state]));
-    logic.add_output("parity", parity.unwrap());
-    logic.add_output("last", *nets.last().unwrap());
-    nexts.iter().enumerate().for_each(|(at, &next)| _ = logic.add_output(format!("s{at}_next"), next));
-    let register = |(at, &(.., falls, start)): (usize, &(u8, usize, usize, bool, Option<bool>))| Register {
-        name: format!("s{at}"),
-        kind: if falls { RegisterKind::Falling } else { RegisterKind::Rising },
-        clock: None,
-        start,
-        forcing: Forcing::Never,
-    };
-    Design::new(logic, recipe.iter().enumerate().map(register).collect())
+        recipe.iter().map(|&(bits, a, b, ..)| netlist.add_gate(Function::new(bits), &[net(a), net(b)])).collect();
+    let parity = nets[2..].iter().copied().reduce(|sum, state| netlist.add_gate(Function::XOR, &[sum, state]));
+    netlist.add_output("parity", parity.unwrap());
+    netlist.add_output("last", *nets.last().unwrap());
+    let clock = netlist.add_input("clk");
+    for (&state, next) in nets[2..].iter().zip(nexts) {
+        (0..).zip([next, clock]).for_each(|(pin, net)| netlist.connect(state, pin, net));
+    }
+    Design { clocks: 1, ..Design::new(netlist) }
 }
 
 /// The outputs over time for these inputs in 64 runs; registers of both edges change in turns.
 fn outputs(design: &Design, inputs: &[[u64; 2]]) -> Vec<Vec<u64>> {
-    let network = View::of(&design.logic, &[]).unwrap().network;
+    let ids: Vec<NetId> = design.netlist.registers().map(|(id, _)| id).collect();
+    let network = View::of(&design.netlist, &ids).unwrap().network;
     let filled = |value: bool| if value { !0 } else { 0 };
-    let mut states: Vec<u64> = design.registers.iter().map(|register| filled(register.starts_at())).collect();
+    let mut states: Vec<u64> = design.netlist.registers().map(|(_, register)| filled(register.starts_at())).collect();
     let mut shown = Vec::new();
     for (at, inputs) in inputs.iter().enumerate() {
-        let values = network.simulate(&inputs.iter().chain(&states).copied().collect::<Vec<_>>());
+        let values = network.simulate(&inputs.iter().chain(&[0]).chain(&states).copied().collect::<Vec<_>>());
         let output: Vec<u64> = network.outputs.iter().map(|&output| values[output as usize]).collect();
-        let (ports, nexts) = output.split_at(design.outputs());
+        let (ports, pins) = output.split_at(design.netlist.outputs().len());
         shown.push(ports.to_vec());
-        for ((state, register), &next) in states.iter_mut().zip(&design.registers).zip(nexts) {
+        for ((state, (_, register)), pins) in states.iter_mut().zip(design.netlist.registers()).zip(pins.chunks(2)) {
             if (register.kind == RegisterKind::Falling) == (at % 2 == 1) {
-                *state = next;
+                *state = pins[0];
             }
         }
     }
@@ -126,8 +127,9 @@ proptest! {
         let design = machine(&recipe);
         let (reduced, removed) = reduce(&design);
         let count = removed.constant.len() + removed.equal.len() + removed.unused.len();
-        prop_assert_eq!(reduced.registers.len() + count, design.registers.len());
-        prop_assert!(copies == 1 || reduced.registers.len() <= design.registers.len() / 2);
+        let [left, all] = [&reduced, &design].map(|design| design.netlist.registers().count());
+        prop_assert_eq!(left + count, all);
+        prop_assert!(copies == 1 || left <= all / 2);
         prop_assert_eq!(outputs(&reduced, &inputs), outputs(&design, &inputs));
         prop_assert!(reduce(&reduced).1.is_empty());
     }

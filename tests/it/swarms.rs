@@ -29,10 +29,7 @@ fn program(truth: u8) -> String {
     let rows: String = (0..8)
         .map(|row| format!("    {} {} {} | {}\n", row >> 2 & 1, row >> 1 & 1, row & 1, truth >> row & 1))
         .collect();
-    format!(
-        "{}\ntest f \"computes {truth:08b}\" {{\n    a b c | y\n{rows}}}\n",
-        nb::write(&Design::new(netlist, Vec::new()))
-    )
+    format!("{}\ntest f \"computes {truth:08b}\" {{\n    a b c | y\n{rows}}}\n", nb::write(&Design::new(netlist)))
 }
 
 fn run(program: &str, options: &CompileOptions) -> RunReport {

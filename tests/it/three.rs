@@ -134,8 +134,8 @@ fn mapping_with_three_senses_needs_fewer_cells_and_is_proved() {
     let [two, three] = [store::shipped_library(), store::three_library()].map(|library| nbc_swarm::cells(&library));
     for name in ["fa", "rca4", "mul2", "mux4", "pop8"] {
         let design = crate::designs::read(&root().join(format!("tests/benchmarks/{name}.blif")));
-        let [before, now] = [&two, &three].map(|library| map(&design.logic, library).unwrap());
-        prove(&design.logic, &now).unwrap();
+        let [before, now] = [&two, &three].map(|library| map(&design.netlist, library).unwrap());
+        prove(&design.netlist, &now).unwrap();
         assert!(now.cells().count() < before.cells().count(), "{name}:\n{now}");
     }
 }

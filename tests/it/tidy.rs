@@ -280,22 +280,22 @@ fn messages_are_written_in_wording_files() {
 
 /// The most lines of Rust in each room. Whoever needs more raises a figure here, and says why in the commit.
 const ROOMS: [(&str, usize); 16] = [
-    ("crates/base", 7_050),
-    ("crates/circuit", 25_270),
+    ("crates/base", 7_150),
+    ("crates/circuit", 25_200),
     ("crates/cluster", 2_700),
     ("crates/lang", 12_550),
     ("crates/learn", 2_650),
     ("crates/lsp", 5_350),
-    ("crates/play", 6_300),
+    ("crates/play", 6_330),
     ("crates/play-server", 1_650),
     ("crates/report", 8_450),
-    ("crates/session", 5_950),
+    ("crates/session", 6_000),
     ("crates/sim", 6_900),
     ("crates/store", 4_300),
-    ("crates/swarm", 7_600),
+    ("crates/swarm", 8_100),
     ("crates/web", 650),
     ("src", 9_100),
-    ("tests/it", 19_950),
+    ("tests/it", 20_150),
 ];
 
 #[test]

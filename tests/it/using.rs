@@ -28,7 +28,7 @@ fn a_pla_is_a_circuit_and_open_outputs_are_0() {
     let (program, messages) = checked(&[("vote.pla", pla)], program);
     assert_eq!(messages, ["outputs that this PLA leaves open are 0 in the circuit"]);
     let netlist = elaborate(&program, &Instance::from("vote")).unwrap();
-    let design = Design::new(netlist, Vec::new());
+    let design = Design::new(netlist);
     let written = String::from_utf8(CircuitFormat::Pla.encode(&design).unwrap()).unwrap();
     assert_eq!(written, ".i 3\n.o 2\n.ilb x[2] x[1] x[0]\n.ob y[1] y[0]\n.p 2\n11- 10\n--1 10\n.e\n");
 }
@@ -272,13 +272,13 @@ fn a_used_benchmark_computes_the_same() {
         let Some(design) = text.contains(".model").then(|| blif::read(&text, FileId(0), None).unwrap()) else {
             continue;
         };
-        if design.logic.inputs().len() > 10 {
+        if design.netlist.inputs().len() > 10 {
             continue;
         }
         let (program, messages) = checked(&[("x.blif", &text)], "use \"x.blif\"\ncircuit f(a) -> (q) { q = not a }");
         assert_eq!(messages, [""; 0], "{}", path.display());
-        let used = elaborate(&program, &Instance::from(design.logic.name.as_str())).unwrap();
-        let orders = [design.logic.inputs(), design.logic.outputs()].map(|ports| order(&design.logic, ports));
-        same_in_order(&design.logic, &used, &orders, &path.display().to_string());
+        let used = elaborate(&program, &Instance::from(design.netlist.name.as_str())).unwrap();
+        let orders = [design.netlist.inputs(), design.netlist.outputs()].map(|ports| order(&design.netlist, ports));
+        same_in_order(&design.netlist, &used, &orders, &path.display().to_string());
     }
 }

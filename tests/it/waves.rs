@@ -1,6 +1,7 @@
 //! Waveforms, read back by another reader of dumps.
 
 use nbc_session::report;
+use nbc_swarm::Flip;
 use vcd::{Command, Header, Parser};
 
 use crate::support::traces::latch;
@@ -60,6 +61,16 @@ fn a_dump_reads_back_with_the_traces_values() {
     let places = changes(&waves, "d_latch.robot_q.x");
     assert_eq!(places.len(), trace.cycles.len() + 1, "a place at the start and at the end of each cycle");
     assert_eq!(places[1], (cycle, trace.robots[1].com_x[4].to_string()));
+}
+
+#[test]
+fn a_bit_that_changes_within_a_cycle_does_so_at_its_env_step() {
+    let mut trace = latch(&[(true, true)], 3);
+    trace.flips.push(Flip { env_step: 100, robot: 1 });
+    let before = trace.cycles[0].bits[1];
+    let bits = changes(&read(report::vcd(&trace).as_bytes()), "d_latch.robot_q.bit");
+    let digit = |bit: bool| u8::from(bit).to_string();
+    assert_eq!(bits[1..3], [(252_000, digit(before)), (300_000, digit(!before))]);
 }
 
 #[test]

@@ -9,7 +9,8 @@ use nbc_swarm::{Assembly, Recording, Room, SwarmConditions, SwarmTrace, simulate
 
 use crate::support::*;
 
-const NOISE: WorldNoise = WorldNoise { start: 0.5, missed: 0.2, weak: 0.05, dead: 0.02, seed: 3 };
+const NOISE: WorldNoise =
+    WorldNoise { start: 0.5, missed: 0.2, weak: 0.05, dead: 0.02, phase: 0.0, drift: 0.0, seed: 3 };
 
 const CIRCUIT: &str = "\
 circuit gate(a, b) -> (q) {

@@ -2,8 +2,8 @@
 
 use nbc_base::model::{Function, Instance};
 use nbc_base::source::{FileId, MemoryWorld, Sources};
-use nbc_circuit::formats::{CircuitFormat, Design, Forcing, Register, RegisterKind, aiger, blif, buses};
-use nbc_circuit::{Logic, NetId, Netlist, elaborate};
+use nbc_circuit::formats::{CircuitFormat, Design, Forcing, RegisterKind, aiger, blif, buses};
+use nbc_circuit::{Logic, NetId, Netlist, RegisterNode, elaborate};
 use nbc_lang::{check, syntax};
 use nbc_session::store;
 use proptest::prelude::*;
@@ -83,29 +83,29 @@ proptest! {
 
     #[test]
     fn written_programs_are_formatted_and_equivalent(netlist in netlists()) {
-        let design = Design::new(netlist, Vec::new());
+        let design = Design::new(netlist);
         let (text, again) = as_program(&design);
-        let orders = [design.logic.inputs(), design.logic.outputs()].map(|ports| order(&design.logic, ports));
-        same_in_order(&design.logic, &again, &orders, &text);
+        let orders = [design.netlist.inputs(), design.netlist.outputs()].map(|ports| order(&design.netlist, ports));
+        same_in_order(&design.netlist, &again, &orders, &text);
     }
 
     #[test]
     fn blif_and_aiger_with_any_names_read_back_the_same(netlist in netlists()) {
-        let design = Design::new(netlist, Vec::new());
+        let design = Design::new(netlist);
         let text = blif::write(&design);
         let again = blif::read(&text, FileId(0), None).unwrap_or_else(|faults| panic!("{faults:?}\n{text}"));
-        same(&design.logic, &again.logic, &text);
+        same(&design.netlist, &again.netlist, &text);
         for binary in [false, true] {
             let bytes = aiger::write(&design, binary);
             let again = aiger::read(&bytes, None).unwrap_or_else(|fault| panic!("{fault:?}"));
-            same(&design.logic, &again.logic, "AIGER");
+            same(&design.netlist, &again.netlist, "AIGER");
         }
     }
 
     #[test]
     fn verilog_names_are_legal_and_different(netlist in netlists()) {
         let ports = netlist.inputs().len() + netlist.outputs().len();
-        let design = Design::new(netlist, Vec::new());
+        let design = Design::new(netlist);
         let text = String::from_utf8(CircuitFormat::Verilog.encode(&design).unwrap()).unwrap();
         assert!(text.chars().all(|c| c == '\n' || c == ' ' || c.is_ascii_graphic()), "{text}");
         let head = text.lines().next().unwrap();
@@ -127,32 +127,34 @@ proptest! {
 fn a_model_without_outputs_is_not_a_program() {
     let mut logic = Netlist::new("silent");
     logic.add_input("a");
-    let fault = store::encode_circuit(&Design::new(logic, Vec::new()), CircuitFormat::Nb).unwrap_err();
+    let fault = store::encode_circuit(&Design::new(logic), CircuitFormat::Nb).unwrap_err();
     assert_eq!(fault.message, "`silent` has no outputs, but a circuit of a .nb file needs one");
 }
 
 /// Four registers of one clock after an inverting shift, and one bit of each other kind.
 fn with_registers() -> Design {
-    let mut logic = Netlist::new("shift");
-    let ports = ["d", "clk"].map(|name| logic.add_input(name));
+    let mut netlist = Netlist::new("shift");
+    let ports = ["d", "clk"].map(|name| netlist.add_input(name));
     let names = ["q[0]", "q[1]", "q[2]", "q[3]", "falling", "high", "low"];
-    let states: Vec<_> = names.iter().map(|&name| logic.add_input(name)).collect();
-    (0..4).for_each(|bit| _ = logic.add_output(format!("q[{bit}]"), states[bit]));
-    (4..7).for_each(|at| _ = logic.add_output(format!("{}_out", names[at]), states[at]));
-    let before = [ports[0], states[0], states[1], states[2], states[3], ports[0], ports[0]];
-    for (name, before) in names.iter().zip(before) {
-        let next = logic.add_gate(Function::NOT, &[before]);
-        logic.add_output(format!("{name}_next"), next);
-    }
     let kinds = [RegisterKind::Falling, RegisterKind::High, RegisterKind::Low];
-    let register = |(at, &name): (usize, &&str)| Register {
-        name: name.to_owned(),
-        kind: at.checked_sub(4).map_or(RegisterKind::Rising, |at| kinds[at]),
-        clock: Some("clk".to_owned()),
-        start: Some(at % 2 == 1),
-        forcing: Forcing::Never,
-    };
-    Design::new(logic, names.iter().enumerate().map(register).collect())
+    let mut states = Vec::new();
+    for (at, name) in names.iter().enumerate() {
+        states.push(netlist.add_loose_register(RegisterNode {
+            kind: at.checked_sub(4).map_or(RegisterKind::Rising, |at| kinds[at]),
+            forcing: Forcing::Never,
+            start: Some(at % 2 == 1),
+            name: Some((*name).to_owned()),
+            span: None,
+        }));
+    }
+    (0..4).for_each(|bit| _ = netlist.add_output(format!("q[{bit}]"), states[bit]));
+    (4..7).for_each(|at| _ = netlist.add_output(format!("{}_out", names[at]), states[at]));
+    let before = [ports[0], states[0], states[1], states[2], states[3], ports[0], ports[0]];
+    for (&state, before) in states.iter().zip(before) {
+        let next = netlist.add_gate(Function::NOT, &[before]);
+        (0..).zip([next, ports[1]]).for_each(|(pin, net)| netlist.connect(state, pin, net));
+    }
+    Design::new(netlist)
 }
 
 #[test]
@@ -166,9 +168,9 @@ fn registers_become_calls_that_do_the_same() {
     {
         assert!(text.contains(call), "`{call}` is not in\n{text}");
     }
-    let made = design.netlist();
-    let (mut first, mut second) = (Logic::new(&made), Logic::new(&again));
-    let outs = order(&made, made.outputs());
+    let made = &design.netlist;
+    let (mut first, mut second) = (Logic::new(made), Logic::new(&again));
+    let outs = order(made, made.outputs());
     for row in 0..40u32 {
         // The data changes while the clock is 0, a row after it falls.
         let inputs = [(row / 4).wrapping_mul(0x9e37_79b9) >> 16 & 1 == 1, matches!(row % 4, 1 | 2)];

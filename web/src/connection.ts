@@ -2,13 +2,14 @@
 
 import type { Dial, Line } from "./line";
 import { Observable } from "./observable";
-import type { PlayEvent, ServerMessage } from "./protocol";
+import type { PlayEvent, ServerMessage, TestVerdict } from "./protocol";
 import { RequestError, type Fields, type Result, type Verb } from "./request";
 
 export type ConnectionState = "connecting" | "open" | "lost";
 
 export interface RequestOptions {
   progress?: (done: number, all: number) => void;
+  found?: (results: TestVerdict[]) => void;
   signal?: AbortSignal;
   /** Called with the number of the request, to which events may refer. */
   started?: (id: number) => void;
@@ -93,6 +94,8 @@ export class Connection {
       this.events.set(message);
     } else if ("progress" in message) {
       this.#pending.get(message.id)?.progress?.(...message.progress);
+    } else if ("found" in message) {
+      this.#pending.get(message.id)?.found?.(message.found);
     } else {
       const pending = this.#pending.get(message.id);
       this.#pending.delete(message.id);

@@ -6,6 +6,8 @@ export interface LoggedCycle {
   outputs: Uint8Array;
   /** The place of each robot's center of mass at the end of the cycle, in voxels from its start. */
   places: Float32Array;
+  /** Robots whose bits changed within the cycle, and the shares of it after which they did, in order. */
+  flips: [robot: number, after: number][];
 }
 
 export interface Poses {
@@ -32,6 +34,8 @@ export interface Frame {
 
 const FRAME = 1;
 const HEADER = 32;
+/** Env steps of a cycle. */
+export const CYCLE_STEPS = 84;
 
 /** Reads a frame of a swarm with these numbers of input and output bits. */
 export function decodeFrame(buffer: ArrayBuffer, inputs: number, outputs: number): Frame {
@@ -72,8 +76,14 @@ function readLog(buffer: ArrayBuffer, frame: Frame, cycles: number, widths: [num
     const [inputs, robots, outputs] = [bits(widths[0]), bits(widths[1]), bits(widths[2])];
     const size = 4 * frame.robots;
     // The packed bits leave the numbers unaligned, so they are copied.
-    frame.log.push({ inputs, robots, outputs, places: new Float32Array(buffer.slice(at, at + size)) });
+    const places = new Float32Array(buffer.slice(at, at + size));
     at += size;
+    const count = new DataView(buffer).getUint16(at, true);
+    const numbers = new Uint16Array(buffer.slice(at + 2, at + 2 + 4 * count));
+    at += 2 + 4 * count;
+    const flip = (i: number): [number, number] => [numbers[2 * i] ?? 0, (numbers[2 * i + 1] ?? 0) / CYCLE_STEPS];
+    const flips = Array.from({ length: count }, (_, i) => flip(i));
+    frame.log.push({ inputs, robots, outputs, places, flips });
   }
   return at;
 }

@@ -1,6 +1,7 @@
 // A way to the program: texts go both ways, and frames of the swarm come.
 
 import { Observable } from "./observable";
+import type { Contents, KeptFiles } from "./tab/files";
 
 export interface Line {
   send: (text: string) => void;
@@ -17,8 +18,8 @@ export interface LineEvents {
 export type Dial = (events: LineEvents) => Line;
 
 export interface BrowserFolder {
-  files: () => [path: string, text: string][];
-  insert: (path: string, text: string) => void;
+  files: () => KeptFiles;
+  insert: (path: string, contents: Contents) => void;
   remove: (path: string) => void;
 }
 

@@ -9,27 +9,9 @@ export function rememberApart(name: string): void {
 
 const LEARNER = "class-name";
 
-/** The name in the class of the learner at this tab, until it is closed. */
-export function learner(): string | null {
-  try {
-    return sessionStorage.getItem(LEARNER);
-  } catch {
-    return null;
-  }
-}
-
-/** Sets it. A browser that forbids this asks for the name again. */
-export function setLearner(name: string | null): void {
-  try {
-    if (name === null) {
-      sessionStorage.removeItem(LEARNER);
-    } else {
-      sessionStorage.setItem(LEARNER, name);
-    }
-  } catch {
-    // Then there is none.
-  }
-}
+/** The name in the class of the learner at this tab, until it is closed. A browser that forbids this asks again. */
+export const learner = (): string | null => read(() => sessionStorage, LEARNER);
+export const setLearner = (name: string | null): void => write(() => sessionStorage, LEARNER, name);
 
 /** The name of what is the learner's own: those who use the same browser one after the other do not share it. */
 export function own(name: string): string {
@@ -49,23 +31,27 @@ export function remember(name: string, value: unknown): void {
   rememberText(name, value === null ? null : JSON.stringify(value));
 }
 
-export function recallText(name: string): string | null {
+export const recallText = (name: string): string | null => read(() => localStorage, prefix + name);
+export const rememberText = (name: string, text: string | null): void => write(() => localStorage, prefix + name, text);
+
+function read(storage: () => Storage, name: string): string | null {
   try {
-    return localStorage.getItem(prefix + name);
+    return storage().getItem(name);
   } catch {
     return null;
   }
 }
 
-export function rememberText(name: string, text: string | null): void {
+/** A browser that forbids this only forgets: the page works without a memory. */
+function write(storage: () => Storage, name: string, text: string | null): void {
   try {
     if (text === null) {
-      localStorage.removeItem(prefix + name);
+      storage().removeItem(name);
     } else {
-      localStorage.setItem(prefix + name, text);
+      storage().setItem(name, text);
     }
   } catch {
-    // A browser that forbids this only forgets: the page works without a memory.
+    return;
   }
 }
 

@@ -12,13 +12,8 @@ export interface PortBit {
   name: string;
 }
 
-export function totalWidth(ports: Column[]): number {
-  return ports.reduce((sum, port) => sum + port.width, 0);
-}
-
-export function offsetOf(ports: Column[], port: Column): number {
-  return totalWidth(ports.slice(0, ports.indexOf(port)));
-}
+export const totalWidth = (ports: Column[]): number => ports.reduce((sum, port) => sum + port.width, 0);
+export const offsetOf = (ports: Column[], port: Column): number => totalWidth(ports.slice(0, ports.indexOf(port)));
 
 export function bitsOf(ports: Column[]): PortBit[] {
   let index = 0;

@@ -730,7 +730,8 @@ export type ServerMessage = { id: number } & ({ ok: Greeting, to: "hello" }
   | { ok: ClassName, to: "join" })
   | { id: number, ok: Nothing }
   | { error: Refusal, id: number }
-  | { id: number, progress: [number, number] } | PlayEvent;
+  | { id: number, progress: [number, number] }
+  | { found: Array<TestVerdict>, id: number } | PlayEvent;
 
 export type SettledOutputs = {
   /** For each row of inputs; none of a swarm with a state. */
@@ -824,6 +825,8 @@ export type ShownSwarm = {
   /** Counts the swarms of a connection; frames have its lowest byte. */
   number: number,
   outputs: Array<Column>,
+  /** For each robot, the env steps by which its own cycles are ahead at the start and the millionths by which they are faster; none with a common clock. */
+  own_clocks: Array<[number, number]>,
   registers: Array<ShownRegister>,
   robots: Array<SwarmRobot>,
   schematic: SchematicPages,

@@ -11,20 +11,13 @@ const still = matchMedia("(prefers-reduced-motion: reduce)");
 
 export const enlargement = new Observable(1);
 
-export function prefersStillness(): boolean {
-  return still.matches;
-}
+export const prefersStillness = (): boolean => still.matches;
 
 /** What the reader chose; null follows the system. */
 let chosen: Theme | null = null;
 
-export function theme(): Theme {
-  return chosen ?? systemTheme();
-}
-
-function systemTheme(): Theme {
-  return dark.matches ? "dark" : "light";
-}
+export const theme = (): Theme => chosen ?? systemTheme();
+const systemTheme = (): Theme => (dark.matches ? "dark" : "light");
 
 export function switchTheme(): void {
   const other: Theme = theme() === "dark" ? "light" : "dark";

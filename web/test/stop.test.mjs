@@ -112,9 +112,9 @@ test("proofs and tests stop at once, and what was found stays", async t => {
   await page.locator('.files [data-open="computer.nb"]').click();
   await shows(page, "computer.nb");
   await page.locator(".test [data-do=physics]").first().click();
-  await page.locator(".test[data-state=running]").waitFor();
-  await page.waitForTimeout(3000);
+  await page.locator(".test[data-state=running] tr[data-row]").first().waitFor();
   t.diagnostic(`the test stopped after ${await stops(page, ".test [data-do=stop]", ".test[data-state=running]")} ms`);
+  await page.locator(".test[data-state=failed] tr[data-row]").first().waitFor();
   await page.leave();
 });
 

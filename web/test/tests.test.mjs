@@ -11,7 +11,9 @@ import { LATCH } from "./program.mjs";
 const FAILING = LATCH.replace("    1 0 | 1\n", "    1 0 | 0\n");
 const FAILING_LINE = 1 + FAILING.split("\n").indexOf("    1 0 | 0");
 
-const here = opened({ "latch.nb": FAILING }, "latch.nb", async page => {
+const ROWS = "a,b,q\n0,0,0\n0,1,1\n1,1,1\n";
+
+const here = opened({ "latch.nb": FAILING, "rows.csv": ROWS }, "latch.nb", async page => {
   await page.locator("#tab-tests").click();
 });
 
@@ -25,7 +27,8 @@ for (const level of ["logic", "physics"]) {
   });
 }
 
-test("it leads to its line", async () => {
+/** Follows the first failing row, to a line of the program. */
+async function follow() {
   await here.page.locator('.rows tr[data-passed="false"] [data-do=line]').click();
   const active = here.page.locator(".cm-activeLineGutter.cm-gutterElement").last();
   await active.waitFor();
@@ -35,7 +38,11 @@ test("it leads to its line", async () => {
       .map(gutter => gutter.textContent)
       .join();
   });
-  assert.equal(line, String(FAILING_LINE));
+  return Number(line);
+}
+
+test("it leads to its line", async () => {
+  assert.equal(await follow(), FAILING_LINE);
 });
 
 test("it leads to its moment in the run, which can be rewound", async () => {
@@ -76,4 +83,14 @@ test("what refutes a property is watched, and becomes a test", async () => {
   await refuted.locator("[data-do=watch]").click();
   await here.page.locator("#tab-swarm[aria-selected=true]").waitFor();
   await here.page.locator('[data-lamp="q"][data-value="1"]').waitFor();
+});
+
+test("a test from a file says how many rows pass, and its rows lead to it", async () => {
+  const gate = "circuit gate(a, b) -> (q) {\n    q = a and b\n}\n";
+  await typeProgram(here.page, `${gate}\ntest gate "of a file" from "rows.csv" at least 60%\n`);
+  await here.page.locator("#tab-tests").click();
+  await here.page.locator(".test", { hasText: "of a file" }).locator("[data-do=logic]").click();
+  await here.page.getByText("✓ passes as logic: 2 of 3, at least 60 %").waitFor();
+  await here.page.getByText("line 3 of rows.csv").waitFor();
+  assert.equal(await follow(), 5);
 });

@@ -9,7 +9,7 @@ interface Written {
   number: number;
   from: number;
   robots: number;
-  log: { inputs: number[]; robots: number[]; outputs: number[]; places: number[] }[];
+  log: { inputs: number[]; robots: number[]; outputs: number[]; places: number[]; flips?: [number, number][] }[];
   poses: { robot: number; origin: number; frames: number[][] }[];
 }
 
@@ -49,9 +49,11 @@ export function encodeFrame(given: Partial<Written>): ArrayBuffer {
   u32(frame.from);
   u16(frame.log.length);
   u16(frame.poses.length);
-  for (const { inputs, robots, outputs, places } of frame.log) {
+  for (const { inputs, robots, outputs, places, flips = [] } of frame.log) {
     [inputs, robots, outputs].forEach(bits => packed(bits).forEach(u8));
     places.forEach(f32);
+    u16(flips.length);
+    flips.flat().forEach(u16);
   }
   for (const { robot, origin, frames } of frame.poses) {
     u16(robot);

@@ -40,7 +40,7 @@ const BAND = {
 
 test("high is thick and tinted, low is thin, and what is unknown is left out", () => {
   const noting = new Noting();
-  drawBit(noting.pen, BAND, [0, 3], cycle => [1, 0, null, 0][cycle] ?? null);
+  drawBit(noting.pen, BAND, [0, 1, 2, 3, 4], cycle => [1, 0, null, 0][cycle] ?? null);
   assert.deepEqual(noting.notes, [
     ["one", 100, 120, 2, 12],
     ["one", 100, 120, 2, 5],
@@ -53,7 +53,7 @@ test("high is thick and tinted, low is thin, and what is unknown is left out", (
 test("a bus has a box for each value, and its text where there is room", () => {
   const noting = new Noting();
   const values = [7n, 7n, 0n, 12n];
-  drawBus(noting.pen, BAND, [0, 3], cycle => values[cycle] ?? 0n, String);
+  drawBus(noting.pen, BAND, [0, 1, 2, 3, 4], cycle => values[cycle] ?? 0n, String);
   assert.deepEqual(noting.notes, [
     ["one", 100.5, 139.5, 2, 12],
     ["7", 114],

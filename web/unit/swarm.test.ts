@@ -31,6 +31,7 @@ const SWARM = {
   start: 1,
   ground: [],
   frames: 12,
+  own_clocks: [],
   waves: null,
   script: null,
 } satisfies ShownSwarm;
@@ -170,4 +171,27 @@ test("a clock changes as soon as its registers permit, and another input when al
     [0, 1].map(bit => halfOf(swarm, bit)),
     [22, 12],
   );
+});
+
+test("a robot with a clock of its own changes within a cycle, and its dial shows how much of its own cycle is over", () => {
+  const server = new Server();
+  const swarm = new LiveSwarm(server as unknown as Connection);
+  const robots = [{ net: "q" }] as unknown as (typeof SWARM)["robots"];
+  swarm.begin({ ...SWARM, robots, own_clocks: [[21, 20_000]] });
+  const cycle = (bit: number, ...flips: [number, number][]): Parameters<typeof encodeFrame>[0]["log"] => [
+    { inputs: [0, 0], robots: [bit], outputs: [], places: [0], flips },
+  ];
+  server.onframe(encodeFrame({ now: 1, from: 1, log: cycle(0) }));
+  server.onframe(encodeFrame({ now: 2, from: 2, log: cycle(1, [0, 42]) }));
+  const source = { robot: 0 };
+  assert.deepEqual(swarm.edges([source], 2), [2.5]);
+  assert.deepEqual(
+    [2, 2.4, 2.5, 2.9].map(time => swarm.valueAt(source, time)),
+    [0, 0, 1, 1],
+  );
+  assert.equal(swarm.valueAt({ input: 0 }, 2.5), 0);
+  swarm.playback.time = 1;
+  assert.ok(Math.abs((swarm.ownCycle(0) ?? 0) - 0.27) < 1e-9);
+  swarm.begin(SWARM);
+  assert.equal(swarm.ownCycle(0), null);
 });

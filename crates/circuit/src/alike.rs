@@ -5,13 +5,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::CancelFlag;
 use crate::correspondence::{ClassLimits, RegisterClasses};
+use crate::formats::Design;
 use crate::formats::buses::buses;
-use crate::formats::{Design, Register};
 use crate::network::{Network, Signal, View};
 use crate::proof::Compared;
 use crate::random_run::DesignRun;
+use crate::{CancelFlag, NetId, RegisterNode};
 
 /// The most and the fewest random steps, and the gates that are evaluated in all of them, roughly.
 const MOST_STEPS: usize = 4_096;
@@ -48,11 +48,11 @@ pub fn likeness(one: &Design, two: &Design, cancel: &CancelFlag) -> Likeness {
         Ok(order) => order,
         Err(port) => return Likeness::Port(port),
     };
-    let gates = one.logic.cells().count().max(1);
+    let gates = one.netlist.cells().count().max(1);
     let steps = (MOST_GATES / gates).clamp(FEWEST_STEPS, MOST_STEPS);
-    let names: Vec<String> = one.logic.inputs()[..one.inputs()].iter().map(|&id| one.logic.net_name(id)).collect();
+    let names = one.netlist.net_names(one.netlist.inputs());
     let ports: Vec<Vec<usize>> = buses(&names, &one.ascending).into_iter().map(|bus| bus.bits).collect();
-    let random = DesignRun::random(one, &ports, steps, SEED);
+    let random = DesignRun::random(&one.netlist, &ports, steps, SEED);
     let Some((run, other)) = random.and_then(|run| Some((order.run(two, &run.inputs)?, run))) else {
         return Likeness::NoSteps;
     };
@@ -68,7 +68,7 @@ pub fn likeness(one: &Design, two: &Design, cancel: &CancelFlag) -> Likeness {
     match product.compared(cancel) {
         Compared::Equal => Likeness::Proved,
         Compared::Open => Likeness::Open(steps),
-        Compared::Different(values) if one.registers.is_empty() && two.registers.is_empty() => {
+        Compared::Different(values) if product.registers.is_empty() => {
             Likeness::Different(shortened(one, two, &order, vec![values]))
         }
         Compared::Different(values) => product.doubtful(steps, &values),
@@ -84,10 +84,7 @@ struct PortOrder {
 impl PortOrder {
     fn of(one: &Design, two: &Design) -> Result<Self, String> {
         let names = |design: &Design| {
-            let name = |&id| design.logic.net_name(id);
-            let inputs: Vec<String> = design.logic.inputs()[..design.inputs()].iter().map(name).collect();
-            let outputs: Vec<String> = design.logic.outputs()[..design.outputs()].iter().map(name).collect();
-            [inputs, outputs]
+            [design.netlist.inputs(), design.netlist.outputs()].map(|ids| design.netlist.net_names(ids))
         };
         let places = |first: &[String], second: &[String]| -> Result<Vec<usize>, String> {
             let known: BTreeMap<&String, usize> = second.iter().enumerate().map(|(at, name)| (name, at)).collect();
@@ -105,7 +102,7 @@ impl PortOrder {
         for (step, moved) in inputs.iter().zip(&mut moved) {
             self.inputs.iter().zip(step).for_each(|(&place, &value)| moved[place] = value);
         }
-        let run = DesignRun::with(two, moved)?;
+        let run = DesignRun::with(&two.netlist, moved)?;
         let shown = |outputs: &Vec<bool>| self.outputs.iter().map(|&place| outputs[place]).collect();
         Some(DesignRun { inputs: inputs.to_vec(), outputs: run.outputs.iter().map(shown).collect() })
     }
@@ -113,7 +110,7 @@ impl PortOrder {
 
 /// Runs with the last of these inputs in which both designs differ, with as few of the others as are needed.
 fn shortened(one: &Design, two: &Design, order: &PortOrder, mut inputs: Vec<Vec<bool>>) -> [DesignRun; 2] {
-    let runs = |inputs: &[Vec<bool>]| Some([DesignRun::with(one, inputs.to_vec())?, order.run(two, inputs)?]);
+    let runs = |inputs: &[Vec<bool>]| Some([DesignRun::with(&one.netlist, inputs.to_vec())?, order.run(two, inputs)?]);
     let mut best = runs(&inputs).expect("both have run with these inputs");
     let (mut size, mut tries) = (inputs.len() / 2, MOST_TRIES);
     while size > 0 {
@@ -131,11 +128,11 @@ fn shortened(one: &Design, two: &Design, order: &PortOrder, mut inputs: Vec<Vec<
     best
 }
 
-/// Two designs as one machine: its outputs are those of the first and of the second, then the next values of the
-/// registers of both, and then what forces them.
+/// Two designs as one machine: its outputs are those of the first and of the second, then the pins of the registers of
+/// both.
 struct Product {
     network: Network,
-    registers: Vec<Register>,
+    registers: Vec<RegisterNode>,
     /// The numbers of inputs and of outputs of a design, and of the registers of the first.
     ports: [usize; 2],
     own: usize,
@@ -145,49 +142,45 @@ struct Product {
 
 impl Product {
     fn of(one: &Design, two: &Design, order: &PortOrder) -> Option<Self> {
-        let [first, second] = [View::of(&one.logic, &[]).ok()?.network, View::of(&two.logic, &[]).ok()?.network];
-        let [ports, shown] = [one.inputs(), one.outputs()];
-        let both = [one.registers.len(), two.registers.len()];
-        let mut network = Network::new(ports + both[0] + both[1]);
+        let ids = [one, two].map(|design| design.netlist.registers().map(|(id, _)| id).collect::<Vec<NetId>>());
+        let first = View::of(&one.netlist, &ids[0]).ok()?.network;
+        let second = View::of(&two.netlist, &ids[1]).ok()?.network;
+        let [ports, shown] = [one.netlist.inputs().len(), one.netlist.outputs().len()];
+        let own = ids[0].len();
+        let mut network = Network::new(ports + own + ids[1].len());
         let inputs: Vec<Signal> = (0..network.inputs).map(|at| network.input(at)).collect();
-        let outputs = network.include(&first, &inputs[..ports + both[0]]);
-        let mut own = vec![0; ports];
-        order.inputs.iter().zip(&inputs).for_each(|(&place, &input)| own[place] = input);
-        own.extend(&inputs[ports + both[0]..]);
-        let others = network.include(&second, &own);
+        let outputs = network.include(&first, &inputs[..ports + own]);
+        let mut others = vec![0; ports];
+        order.inputs.iter().zip(&inputs).for_each(|(&place, &input)| others[place] = input);
+        others.extend(&inputs[ports + own..]);
+        let others = network.include(&second, &others);
         network.outputs = outputs[..shown].to_vec();
         network.outputs.extend(order.outputs.iter().map(|&place| others[place]));
-        network.outputs.extend(&outputs[shown..shown + both[0]]);
-        network.outputs.extend(&others[shown..shown + both[1]]);
-        network.outputs.extend(&outputs[shown + both[0]..]);
-        network.outputs.extend(&others[shown + both[1]..]);
-        let mut product = Self {
-            network,
-            registers: one.registers.clone(),
-            ports: [ports, shown],
-            own: both[0],
-            clocks: BTreeSet::new(),
-        };
-        product.add_registers(&two.registers);
+        network.outputs.extend(&outputs[shown..]);
+        network.outputs.extend(&others[shown..]);
+        let registers =
+            [one, two].into_iter().flat_map(|design| design.netlist.registers().map(|(_, register)| register.clone()));
+        let mut product =
+            Self { network, registers: registers.collect(), ports: [ports, shown], own, clocks: BTreeSet::new() };
+        product.share_clocks();
         Some(product)
     }
 
     /// A register that clocks others stands for that of the first with its name, if they are proved equal.
-    fn add_registers(&mut self, second: &[Register]) {
-        let places = |registers: &[Register]| -> BTreeMap<String, usize> {
-            registers.iter().enumerate().map(|(at, register)| (register.name.clone(), at)).collect()
-        };
-        let [first_places, second_places] = [places(&self.registers), places(second)];
-        let second_name = |name: &str| format!("{name}\n");
+    fn share_clocks(&mut self) {
+        let (first, second) = self.registers.split_at(self.own);
+        let known: BTreeMap<&Option<String>, usize> = first.iter().zip(0..).map(|(one, at)| (&one.name, at)).collect();
+        let mut place = 2 * self.ports[1] + first.iter().map(RegisterNode::pins).sum::<usize>();
         for register in second {
-            let mut clock = register.clock.clone();
-            if let Some((name, &at)) = clock.as_ref().and_then(|clock| second_places.get_key_value(clock)) {
-                match first_places.get(name) {
-                    Some(&first) => _ = self.clocks.insert([first, self.own + at]),
-                    None => clock = Some(second_name(name)),
-                }
+            let clock = &mut self.network.outputs[place + usize::from(RegisterNode::CLOCK)];
+            place += register.pins();
+            let at = (*clock as usize).checked_sub(2 + self.ports[0]).filter(|&at| at < self.registers.len());
+            if let Some(at) = at
+                && let Some(&same) = known.get(&self.registers[at].name)
+            {
+                self.clocks.insert([same, at]);
+                *clock = (2 + self.ports[0] + same) as Signal;
             }
-            self.registers.push(Register { name: second_name(&register.name), clock, ..register.clone() });
         }
     }
 

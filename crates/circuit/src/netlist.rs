@@ -215,6 +215,13 @@ impl Netlist {
     pub(crate) fn replace_register(&mut self, id: NetId, node: Node) {
         let pins: Vec<_> = self.graph.edges_directed(id, Incoming).map(|edge| edge.id()).collect();
         pins.into_iter().for_each(|pin| _ = self.graph.remove_edge(pin));
+        self.inputs.extend(Some(id).filter(|_| matches!(node, Node::Input(_))));
+        self.graph[id] = node;
+    }
+
+    /// Makes an input another node, which keeps its listeners.
+    pub(crate) fn replace_input(&mut self, id: NetId, node: Node) {
+        self.inputs.retain(|&input| input != id);
         self.graph[id] = node;
     }
 

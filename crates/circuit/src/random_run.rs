@@ -1,4 +1,4 @@
-//! Runs of a design from its start.
+//! Runs of a netlist with registers from its start.
 //!
 //! A step of a random run changes a clock, an input that forces registers, or other inputs, but never two of these
 //! together: what a register takes when its clock and its data change at once is not defined.
@@ -8,8 +8,9 @@ use std::collections::BTreeSet;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::formats::{Design, Forcing, RegisterKind};
 use crate::network::{Network, Signal, View};
+use crate::register::{Forcing, RegisterKind};
+use crate::{NetId, Netlist, RegisterNode};
 
 const HABIT: usize = 64;
 
@@ -22,9 +23,9 @@ pub struct DesignRun {
 }
 
 impl DesignRun {
-    /// `ports` are the input ports, each a list of its bits. None if the design has feedback, or does not settle.
-    pub(crate) fn random(design: &Design, ports: &[Vec<usize>], steps: usize, seed: u64) -> Option<Self> {
-        let machine = Machine::of(design)?;
+    /// `ports` are the input ports, each a list of its bits. None if the netlist has feedback, or does not settle.
+    pub(crate) fn random(netlist: &Netlist, ports: &[Vec<usize>], steps: usize, seed: u64) -> Option<Self> {
+        let machine = Machine::of(netlist)?;
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut now = machine.calm(&mut random)?;
         let mut run = Self::default();
@@ -46,9 +47,9 @@ impl DesignRun {
         Some(run)
     }
 
-    pub(crate) fn with(design: &Design, inputs: Vec<Vec<bool>>) -> Option<Self> {
-        let machine = Machine::of(design)?;
-        let states = design.registers.iter().map(|register| register.starts_at()).collect();
+    pub(crate) fn with(netlist: &Netlist, inputs: Vec<Vec<bool>>) -> Option<Self> {
+        let machine = Machine::of(netlist)?;
+        let states = machine.starts();
         let mut now = Values { inputs: inputs[0].clone(), states, outputs: Vec::new() };
         let mut run = Self::default();
         for inputs in inputs {
@@ -58,9 +59,9 @@ impl DesignRun {
         Some(run)
     }
 
-    fn push(&mut self, machine: &Machine<'_>, values: &Values) {
+    fn push(&mut self, machine: &Machine, values: &Values) {
         self.inputs.push(values.inputs.clone());
-        self.outputs.push(values.outputs[..machine.design.outputs()].to_vec());
+        self.outputs.push(values.outputs[..machine.shown].to_vec());
     }
 }
 
@@ -109,15 +110,17 @@ impl Habits {
     }
 }
 
-struct Machine<'d> {
-    design: &'d Design,
+struct Machine {
+    registers: Vec<RegisterNode>,
+    /// Its inputs are those of the netlist and then the registers, its outputs those of the netlist and then the pins
+    /// of the registers.
     network: Network,
-    /// The input of the network that clocks each register: a port or the value of a register.
-    clocks: Vec<usize>,
+    inputs: usize,
+    shown: usize,
     clock_inputs: BTreeSet<usize>,
     forcing_inputs: BTreeSet<usize>,
-    /// For each register, the first of the outputs of the network that force it.
-    forced: Vec<usize>,
+    /// For each register, the first output that is one of its pins.
+    places: Vec<usize>,
 }
 
 struct Values {
@@ -126,54 +129,53 @@ struct Values {
     outputs: Vec<bool>,
 }
 
-impl<'d> Machine<'d> {
-    fn of(design: &'d Design) -> Option<Self> {
-        let network = View::of(&design.logic, &[]).ok()?.network;
-        let names: Vec<String> = design.logic.inputs().iter().map(|&id| design.logic.net_name(id)).collect();
-        let clock = |name: &str| names.iter().position(|known| known == name);
-        let clocks: Vec<usize> =
-            design.registers.iter().map(|register| clock(register.clock_name())).collect::<Option<_>>()?;
-        let mut at = design.outputs() + design.registers.len();
-        let mut forced = Vec::new();
-        for register in &design.registers {
-            forced.push(at);
-            at += register.forcing.nets().len();
+impl Machine {
+    fn of(netlist: &Netlist) -> Option<Self> {
+        let ids: Vec<NetId> = netlist.registers().map(|(id, _)| id).collect();
+        let network = View::of(netlist, &ids).ok()?.network;
+        let registers: Vec<RegisterNode> = netlist.registers().map(|(_, register)| register.clone()).collect();
+        let (inputs, shown) = (netlist.inputs().len(), netlist.outputs().len());
+        let mut at = shown;
+        let mut places = Vec::new();
+        for register in &registers {
+            places.push(at);
+            at += register.pins();
         }
-        let mut machine = Self {
-            design,
-            clock_inputs: clocks.iter().copied().filter(|&at| at < design.inputs()).collect(),
-            clocks,
-            forcing_inputs: BTreeSet::new(),
-            forced,
-            network,
-        };
-        machine.forcing_inputs = machine.forcing_inputs();
+        let (clock_inputs, forcing_inputs) = (BTreeSet::new(), BTreeSet::new());
+        let mut machine = Self { registers, network, inputs, shown, clock_inputs, forcing_inputs, places };
+        let pins = |at: usize| machine.places[at]..machine.places[at] + machine.registers[at].pins();
+        let all = || (0..machine.registers.len()).map(pins);
+        machine.clock_inputs = machine.inputs_of(all().map(|pins| pins.start + 1));
+        machine.forcing_inputs = machine.inputs_of(all().flat_map(|pins| pins.skip(2)));
         Some(machine)
     }
 
-    fn forcing_inputs(&self) -> BTreeSet<usize> {
-        let first = self.design.outputs() + self.design.registers.len();
-        let mut open: Vec<Signal> = self.network.outputs[first..].to_vec();
+    fn inputs_of(&self, outputs: impl Iterator<Item = usize>) -> BTreeSet<usize> {
+        let mut open: Vec<Signal> = outputs.map(|at| self.network.outputs[at]).collect();
         let mut seen: BTreeSet<Signal> = open.iter().copied().collect();
         let mut inputs = BTreeSet::new();
         while let Some(signal) = open.pop() {
             match self.network.gate(signal) {
                 Some(gate) => open.extend(gate.pins.into_iter().filter(|&pin| seen.insert(pin))),
-                None => inputs.extend((signal as usize).checked_sub(2).filter(|&at| at < self.design.inputs())),
+                None => inputs.extend((signal as usize).checked_sub(2).filter(|&at| at < self.inputs)),
             }
         }
         inputs
     }
 
+    fn starts(&self) -> Vec<bool> {
+        self.registers.iter().map(RegisterNode::starts_at).collect()
+    }
+
     fn calm(&self, random: &mut ChaCha8Rng) -> Option<Values> {
-        let states: Vec<bool> = self.design.registers.iter().map(|register| register.starts_at()).collect();
+        let states = self.starts();
         let mut best: Option<(usize, Vec<bool>)> = None;
         let single = self.forcing_inputs.iter().map(|&at| vec![at]);
         let random = (0..TRIES).map(|_| {
             self.forcing_inputs.iter().copied().filter(|_| random.random_range(0..2) == 1).collect::<Vec<_>>()
         });
         for ones in std::iter::once(Vec::new()).chain(single).chain(random) {
-            let mut inputs = vec![false; self.design.inputs()];
+            let mut inputs = vec![false; self.inputs];
             ones.into_iter().for_each(|at| inputs[at] = true);
             let values = self.simulate(&inputs, &states);
             let count = (0..states.len()).filter(|&at| self.force(at, &values).contains(&true)).count();
@@ -194,18 +196,19 @@ impl<'d> Machine<'d> {
     }
 
     fn force<'v>(&self, at: usize, outputs: &'v [bool]) -> &'v [bool] {
-        &outputs[self.forced[at]..][..self.design.registers[at].forcing.nets().len()]
+        &outputs[self.places[at]..][2..self.registers[at].pins()]
     }
 
     fn after(&self, before: &Values, inputs: Vec<bool>) -> Option<Values> {
         let count = before.states.len();
-        let mut clocks: Vec<bool> = (0..count).map(|at| self.clock(at, &before.inputs, &before.states)).collect();
+        let clocks_of = |outputs: &[bool]| self.places.iter().map(|&place| outputs[place + 1]).collect::<Vec<_>>();
+        let mut clocks = clocks_of(&self.simulate(&before.inputs, &before.states));
         let mut states = before.states.clone();
         for _ in 0..count + 2 {
             let outputs = self.simulate(&inputs, &states);
-            let now: Vec<bool> = (0..count).map(|at| self.clock(at, &inputs, &states)).collect();
+            let now = clocks_of(&outputs);
             let next = |at: usize| {
-                let register = &self.design.registers[at];
+                let register = &self.registers[at];
                 let takes = match register.kind {
                     RegisterKind::Rising => now[at] && !clocks[at],
                     RegisterKind::Falling => !now[at] && clocks[at],
@@ -216,7 +219,7 @@ impl<'d> Machine<'d> {
                     (Forcing::ToStart, [true]) => register.starts_at(),
                     (Forcing::SetReset, [_, true]) => false,
                     (Forcing::SetReset, [true, _]) => true,
-                    _ if takes => outputs[self.design.outputs() + at],
+                    _ if takes => outputs[self.places[at]],
                     _ => states[at],
                 }
             };
@@ -227,11 +230,6 @@ impl<'d> Machine<'d> {
             (states, clocks) = (nexts, now);
         }
         None
-    }
-
-    fn clock(&self, at: usize, inputs: &[bool], states: &[bool]) -> bool {
-        let at = self.clocks[at];
-        at.checked_sub(inputs.len()).map_or_else(|| inputs[at], |state| states[state])
     }
 
     /// Whether a step changes what forces a register that was forced before. Sources of hardware describe this by edges
@@ -247,19 +245,18 @@ impl<'d> Machine<'d> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Netlist;
-    use crate::formats::Register;
     use nbc_base::model::Function;
 
-    fn toggle(kind: RegisterKind) -> Design {
-        let mut logic = Netlist::new("toggle");
-        let [_, reset, state] = ["clk", "r", "q"].map(|name| logic.add_input(name));
-        let next = logic.add_gate(Function::NOT, &[state]);
-        let outputs = [("q", state), ("q_next", next), ("q_reset", reset)];
-        outputs.into_iter().for_each(|(name, net)| _ = logic.add_output(name, net));
-        let clock = Some("clk".to_owned());
-        let register = Register { name: "q".to_owned(), kind, clock, start: Some(true), forcing: Forcing::ToStart };
-        Design::new(logic, vec![register])
+    fn toggle(kind: RegisterKind) -> Netlist {
+        let mut netlist = Netlist::new("toggle");
+        let [clock, reset] = ["clk", "r"].map(|name| netlist.add_input(name));
+        let (forcing, name) = (Forcing::ToStart, Some("q".to_owned()));
+        let register = RegisterNode { kind, forcing, start: Some(true), name, span: None };
+        let state = netlist.add_loose_register(register);
+        let next = netlist.add_gate(Function::NOT, &[state]);
+        (0..).zip([next, clock, reset]).for_each(|(pin, net)| netlist.connect(state, pin, net));
+        netlist.add_output("q", state);
+        netlist
     }
 
     #[test]

@@ -64,7 +64,7 @@ mod tests {
             let fault = Fault { env_step: 300, kind };
             let evaluated = Evaluated { outcome: CandidateOutcome::Faulty(fault), work: Work::default() };
             let screened = TaskResult::Screening(Err(fault));
-            let bits = SwarmBits { cycles: vec![vec![true, false]; 3], fault: Some((1, fault)) };
+            let bits = SwarmBits { cycles: vec![vec![true, false]; 3], flips: Vec::new(), fault: Some((1, fault)) };
             let measured = TaskResult::Measurement(Err(fault));
             for result in [TaskResult::Evaluation(evaluated), screened, measured, TaskResult::Swarm(bits)] {
                 let answer = AnswerMessage { key, result };

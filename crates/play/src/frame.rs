@@ -39,6 +39,8 @@ impl<'a, L: ExactSizeIterator<Item = &'a LoggedCycle>> SwarmFrame<'a, L> {
             for (x, [start, _]) in cycle.com_x.iter().zip(self.starts) {
                 bytes.extend(((x - start) as f32).to_le_bytes());
             }
+            bytes.extend((cycle.flips.len() as u16).to_le_bytes());
+            bytes.extend(cycle.flips.iter().flatten().flat_map(|number| number.to_le_bytes()));
         }
         for &robot in self.view {
             let (poses, [_, left]) = (&self.poses[robot], self.starts[robot]);
@@ -74,6 +76,7 @@ mod tests {
             bits: vec![true],
             outputs: vec![false, true],
             com_x: vec![12.5],
+            flips: vec![[0, 40]],
         }];
         let poses = Poses { points: 1, origin: 11.0, frames: vec![100, -1] };
         let frame = SwarmFrame {
@@ -91,7 +94,7 @@ mod tests {
         };
         let expected = [
             vec![1, 1, 1, 0, 3, 0, 0, 0, 0, 0, 0, 0, 4, 0, 0, 0, 0, 0, 128, 64, 1, 2, 0, 0, 3, 0, 0, 0, 1, 0, 1, 0],
-            vec![1, 1, 2, 0, 0, 32, 64],
+            vec![1, 1, 2, 0, 0, 32, 64, 1, 0, 0, 0, 40, 0],
             vec![0, 0, 1, 0, 0, 0, 64, 64, 100, 0, 255, 255],
         ];
         assert_eq!(frame.encode(), expected.concat());

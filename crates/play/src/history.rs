@@ -18,17 +18,22 @@ pub(super) struct LoggedCycle {
     pub(super) outputs: Vec<bool>,
     /// The centers of mass at its end, in voxels of the world.
     pub(super) com_x: Vec<f64>,
+    /// Robots whose bits changed within the cycle, each with the env step.
+    pub(super) flips: Vec<[u16; 2]>,
 }
 
 impl LoggedCycle {
     pub(super) fn last_of(swarm: &LiveSwarm) -> Self {
         let trace = swarm.trace();
         let cycle = trace.cycles.last().expect("the swarm has done a cycle");
+        let start = (swarm.cycles() as u32 - 1) * CYCLE_STEPS;
+        let flips = trace.flips.iter().filter(|flip| flip.env_step > start);
         Self {
             inputs: cycle.inputs.clone(),
             bits: cycle.bits.clone(),
             outputs: cycle.outputs.clone(),
             com_x: trace.robots.iter().map(|robot| robot.com_x[robot.com_x.len() - 1]).collect(),
+            flips: flips.map(|flip| [flip.robot as u16, (flip.env_step - start) as u16]).collect(),
         }
     }
 }

@@ -50,7 +50,7 @@ pub(super) struct Job {
     making: CompileOptions,
     monitor: Arc<Monitor>,
     is_late: Arc<AtomicBool>,
-    percent: u64,
+    pub(super) percent: u64,
 }
 
 pub(super) enum PortionEnd {

@@ -22,16 +22,18 @@ pub struct MemoryFolder {
 #[derive(Default)]
 struct Files {
     world: MemoryWorld,
-    /// Sizes in bytes and hashes of texts, the stamps by which a returning page sees whether a file has changed.
+    /// Sizes in bytes and hashes of contents, the stamps by which a returning page sees whether a file has changed.
     known: BTreeMap<String, (usize, u64)>,
     written: Vec<String>,
 }
 
 impl MemoryFolder {
-    pub fn insert(&self, path: &str, text: &str) {
+    pub fn insert(&self, path: &str, contents: impl AsRef<[u8]>) {
+        let (contents, mut hash) = (contents.as_ref(), Fnv::default());
+        hash.add(contents);
         let mut files = lock(&self.files);
-        files.known.insert(path.to_owned(), (text.len(), Fnv::of(text)));
-        files.world.insert(identity(path), text);
+        files.known.insert(path.to_owned(), (contents.len(), hash.value()));
+        files.world.insert(identity(path), contents);
     }
 
     pub fn remove(&self, path: &str) {
@@ -102,9 +104,13 @@ struct MemoryFiles {
 impl SourceWorld for MemoryFiles {
     // Examples come with the program, and so do the files beside them.
     fn read(&self, path: &str) -> Result<String, FileError> {
+        FileError::text(self.read_bytes(path)?)
+    }
+
+    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
         let place = identity(path);
-        let read = lock(&self.folder.files).world.read(&place);
-        let shipped = || beside_example(&place[1..]).map(str::to_owned);
+        let read = lock(&self.folder.files).world.read_bytes(&place);
+        let shipped = || beside_example(&place[1..]).map(Vec::from);
         read.or_else(|error| shipped().filter(|_| error == FileError::NotFound).ok_or(error))
     }
 

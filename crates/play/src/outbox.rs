@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::message::{Nothing, PlayEvent, RequestResult, ServerMessage};
 use crate::refusal::Refused;
+use nbc_swarm::TestVerdict;
 
 /// The way to one page. Only the newest frame of its swarm is kept, so that a slow page does not slow down the swarm.
 pub trait Line: Send + Sync {
@@ -41,6 +42,10 @@ impl Outbox {
 
     pub(super) fn progress(&self, id: u64, progress: [u64; 2]) {
         self.tell(&ServerMessage::Progress { id, progress });
+    }
+
+    pub(super) fn found(&self, id: u64, found: Vec<TestVerdict>) {
+        self.tell(&ServerMessage::Found { id, found });
     }
 
     pub(super) fn answer(&self, id: u64, result: Result<RequestResult, Refused>) {

@@ -144,6 +144,10 @@ pub(super) fn describe(number: u32, checked: &Checked, compiled: &Compiled, swar
         start: assembly.start_cycles(),
         ground: columns(&assembly.setting(Session::LIVE_CYCLES).ground),
         frames: FRAMES,
+        own_clocks: match swarm.is_divisible() {
+            true => Vec::new(),
+            false => swarm.own_clocks().iter().map(|clock| (clock.phase, clock.rate)).collect(),
+        },
         waves: compiled.mapping.waves.as_ref().map(|machine| {
             let registers = state::wave_registers(&compiled.mapping, machine);
             waves(machine, &trace.recording.robots, registers)
@@ -204,6 +208,9 @@ fn robot(
     }
 }
 
+/// Rows of a test that a page knows before its end.
+const MOST_FOUND: usize = 500;
+
 pub(super) fn testing(
     session: Session,
     open: impl FnOnce(&Job) -> Result<Arc<Checked>, Refused> + Send + 'static,
@@ -211,6 +218,7 @@ pub(super) fn testing(
     shell: Arc<dyn Shell>,
 ) -> JobWork {
     let (mut open, mut running, mut cycles) = (Some(open), None, SharedCycles::new(shell));
+    let mut sent = 0;
     Box::new(move |job| {
         let Some(run) = &mut running else {
             let checked = open.take().expect("it is opened once")(job)?;
@@ -220,15 +228,26 @@ pub(super) fn testing(
             running = Some(session.begin_test(&checked, test, &options)?);
             return Ok(PortionEnd::More);
         };
-        if run.advance_with(job, &mut cycles) {
+        let percent = job.percent;
+        let is_running = run.advance_with(job, &mut cycles);
+        if job.percent > percent && sent < MOST_FOUND {
+            let found = run.found();
+            sent = found.iter().map(|one| one.rows.len()).sum();
+            job.outbox.found(job.id, listed_rows(found, MOST_FOUND));
+        }
+        if is_running {
             return Ok(if cycles.waits() { PortionEnd::Waits } else { PortionEnd::More });
         }
         job.check()?;
-        let mut results: Vec<TestVerdict> =
-            running.take().expect("it runs").into_runs().into_iter().map(|run| run.verdict).collect();
-        results.iter_mut().for_each(|one| one.rows.truncate(listed(&one.inputs, &one.outputs)));
+        let runs = running.take().expect("it runs").into_runs();
+        let results = listed_rows(runs.into_iter().map(|run| run.verdict).collect(), usize::MAX);
         Ok(PortionEnd::Done(Some(RequestResult::Test(TestAnswer { results }))))
     })
+}
+
+fn listed_rows(mut verdicts: Vec<TestVerdict>, most: usize) -> Vec<TestVerdict> {
+    verdicts.iter_mut().for_each(|one| one.rows.truncate(listed(&one.inputs, &one.outputs).min(most)));
+    verdicts
 }
 
 pub(super) fn proving(

@@ -72,7 +72,8 @@ impl CycleRunner for SharedCycles {
     ) -> Poll<Result<(), RobotFault>> {
         let present = self.present.take();
         let is_worth_it = |crew: &&dyn Crew| SharedCycle::is_worth_it(*crew, assembly.members.len());
-        let Some(crew) = self.shell.crew().filter(is_worth_it) else {
+        let crew = self.shell.crew().filter(is_worth_it);
+        let Some(crew) = crew.filter(|_| swarm.is_divisible()) else {
             return Poll::Ready(swarm.step(inputs).map(drop));
         };
         let next = match present {

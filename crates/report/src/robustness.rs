@@ -8,7 +8,7 @@ use crate::element::{Paint, Point, Type};
 use crate::svg::Svg;
 use crate::verdict::in_world;
 use nbc_base::diag::counted;
-use nbc_base::model::{PhysicsWorld, WorldFactors, WorldNoise};
+use nbc_base::model::{Hears, PhysicsWorld, WorldFactors, WorldNoise};
 use nbc_swarm::{Proportion, RobotMargin, Robustness};
 
 const MOST_FAILING: usize = 5;
@@ -67,6 +67,8 @@ fn declaration(world: &PhysicsWorld) -> String {
         ("missed", noise.missed, silent.missed),
         ("weak", noise.weak, silent.weak),
         ("dead", noise.dead, silent.dead),
+        ("phase", noise.phase, silent.phase),
+        ("drift", noise.drift, silent.drift),
     ];
     let changed = fields.into_iter().filter(|(_, value, own)| value != own);
     let mut words: Vec<String> = changed.map(|(name, value, _)| format!("{name}: {value}")).collect();
@@ -74,7 +76,10 @@ fn declaration(world: &PhysicsWorld) -> String {
     if !world.ground.is_flat() && !is_of_file {
         words.push(format!("ground: {:?}", world.ground.heights()));
     }
-    if [noise.start, noise.missed, noise.dead].iter().any(|amount| *amount > 0.0) {
+    if world.hears == Hears::Always {
+        words.push("hears: always".to_owned());
+    }
+    if [noise.start, noise.missed, noise.dead, noise.phase, noise.drift].iter().any(|amount| *amount > 0.0) {
         words.push(format!("seed: {}", noise.seed));
     }
     let record = if words.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", words.join(", ")) };

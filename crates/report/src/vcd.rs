@@ -11,6 +11,7 @@ use nbc_swarm::SwarmTrace;
 
 /// Microseconds of one actuation cycle: 84 env steps of 3 ms (docs/physics.md 1 and 10).
 const CYCLE: u64 = 252_000;
+const ENV_STEP: u64 = 3_000;
 
 struct Wave {
     name: String,
@@ -48,8 +49,9 @@ struct Scope {
     waves: Vec<Wave>,
 }
 
-/// Inputs and stimuli change at the start of a cycle, outputs at the end of the cycle that produced them. Positions
-/// of robots are given at both, in voxels to the hundredth.
+/// Inputs and stimuli change at the start of a cycle, outputs at the end of the cycle that produced them, and the bits
+/// of robots with clocks of their own at an env step. Positions of robots are given at the ends of cycles, in voxels to
+/// the hundredth.
 pub fn vcd(trace: &SwarmTrace) -> String {
     let scopes = scopes(trace);
     let mut text = String::from("$version nbc $end\n$timescale 1 us $end\n");
@@ -81,7 +83,14 @@ fn scopes(trace: &SwarmTrace) -> Vec<Scope> {
     robots.sort_by(|(_, a), (_, b)| a.block.cmp(&b.block));
     let digit = |bit: bool| u8::from(bit).to_string();
     for (k, robot) in robots {
-        let mut waves = vec![Wave::bits("bit", 1, 1, trace.cycles.iter().map(|cycle| digit(cycle.bits[k])))];
+        let mut bit = Wave::bits("bit", 1, 1, trace.cycles.iter().map(|cycle| digit(cycle.bits[k])));
+        for flip in trace.flips.iter().filter(|flip| flip.robot == k) {
+            let time = u64::from(flip.env_step) * ENV_STEP;
+            let at = bit.values.partition_point(|(other, _)| *other < time);
+            let value = digit(bit.values[at - 1].1 != "1");
+            bit.values.insert(at, (time, value));
+        }
+        let mut waves = vec![bit];
         waves.extend((0..robot.senses.len()).map(|i| {
             let bits = trace.cycles.iter().map(|cycle| digit(cycle.sensed[k].has(i)));
             Wave::bits(format!("stimulus_{}", i + 1), 1, 0, bits)

@@ -34,14 +34,24 @@ impl Compiled {
     }
 
     pub(super) fn in_world(&self, world: NamedWorld) -> Self {
-        let mut moved = self.clone();
+        let mut moved = Self { plan: self.plan.clone().in_world(world), ..self.clone() };
         for member in &mut moved.assembly.members {
-            let own = self.plan.library.robots.iter().find(|robot| robot.name == member.robot.name);
-            member.robot.body.clone_from(&own.expect("a member is of the library").body);
+            let own = moved.plan.library.robots.iter().find(|robot| robot.name == member.robot.name);
+            let own = own.expect("a member is of the library");
+            member.robot.body.clone_from(&own.body);
+            member.robot.character.clock = own.character.clock;
         }
-        let assembly = moved.assembly.in_world(world.world);
-        moved.plan.world = world;
-        Self { assembly, ..moved }
+        if self.pace() != moved.pace() {
+            moved.mapping.cells = nbc_swarm::cells(&moved.plan.library);
+            moved.timing = moved.plan.timing(&moved.mapping);
+        }
+        Self { assembly: moved.assembly.in_world(moved.plan.world.world), ..moved }
+    }
+
+    /// All of its world on which the times of its robots depend.
+    pub(super) fn pace(&self) -> (u32, f64) {
+        let world = &self.plan.world.world;
+        (world.lateness(), world.noise.drift)
     }
 }
 
@@ -97,6 +107,9 @@ pub(super) fn map(
         RegisterStyle::Mux if has_multiplexers(&cells) => map(source, RegisterForm::Multiplexers),
         RegisterStyle::Mux => Err(vec![for_circuit(wording::no_multiplexer(), place)]),
         RegisterStyle::Waves => {
+            if plan.world.world.lateness() > 0 {
+                return Err(vec![for_circuit(wording::waves_need_a_beat(&plan.world.name), place)]);
+            }
             permit(&source, gates, place)?;
             let mapping = map_waves(source, &plan.library, plan.waves, options);
             mapping.map_err(|fault| vec![for_circuit(fault, place)])
@@ -127,7 +140,7 @@ pub(super) fn compile(
 ) -> Result<Compiled, Vec<Diagnostic>> {
     let mapping = map(source, &plan, options, place, Limit::SwarmGates)?;
     permit(&mapping.netlist, Limit::Robots, place)?;
-    let timing = mapping.timing();
+    let timing = plan.timing(&mapping);
     let assembly = match &mapping.waves {
         None => nbc_swarm::assemble(&mapping.netlist, &plan.library),
         Some(machine) => {

@@ -17,6 +17,12 @@ pub(super) fn row_holds(rows: &[TestRow], netlist: &Netlist, compiled: &Compiled
     holds.into_iter().zip(resting_outputs(rows, netlist)).map(row_hold).collect()
 }
 
+/// The holds of the same rows in the world of a compiled circuit.
+pub(super) fn again(rows: &[TestRow], row_holds: &[RowHold], compiled: &Compiled) -> Vec<RowHold> {
+    let holds = holds(rows, compiled, compiled.plan.hold).into_iter().zip(row_holds);
+    holds.map(|([hold, needed], before)| RowHold { hold, needed, rests: before.rests.clone() }).collect()
+}
+
 /// For each row, the cycles for which it is held, and those that its robots need.
 fn holds(rows: &[TestRow], compiled: &Compiled, usual: Hold) -> Vec<[usize; 2]> {
     let window = compiled.plan.window;
@@ -24,7 +30,8 @@ fn holds(rows: &[TestRow], compiled: &Compiled, usual: Hold) -> Vec<[usize; 2]> 
     let mut settling = Settling::new(&compiled.assembly, window as usize);
     let hold = |(i, row): (usize, &TestRow)| {
         let most = if i == 0 { bound + compiled.assembly.start_cycles() } else { bound };
-        let needed = settling.cycles_to_settle(&row.inputs, most).unwrap_or(most) + STEADY_EXTRA;
+        let settled = settling.cycles_to_settle(&row.inputs, most);
+        let needed = settled.map_or(most, |cycles| compiled.plan.stretched(cycles)) + STEADY_EXTRA;
         let hold = match (row.hold, usual) {
             (Some(cycles), _) | (None, Hold::Cycles(cycles)) => cycles.max(1) as usize,
             (None, Hold::Auto) => needed,

@@ -76,7 +76,7 @@ impl Learning {
         let bits = |ports: &[Column]| ports.iter().flat_map(Column::bits).collect::<Vec<_>>();
         let outputs: Vec<_> = bits(&self.outputs).into_iter().map(|output| (output, Literal::FALSE)).collect();
         let inputs = bits(&self.inputs);
-        Design::new(GateGraph::new(inputs.len()).netlist(&self.circuit, &inputs, &outputs), Vec::new())
+        Design::new(GateGraph::new(inputs.len()).netlist(&self.circuit, &inputs, &outputs))
     }
 
     /// Done and total.
@@ -96,7 +96,7 @@ impl Learning {
         let bits = |ports: &[Column]| ports.iter().flat_map(Column::bits).collect::<Vec<_>>();
         let named: Vec<_> = bits(&outputs).into_iter().zip(circuit.literals.iter().copied()).collect();
         let logic = circuit.graph.netlist(&name, &bits(&inputs), &named);
-        Learned { design: Design::new(logic, Vec::new()), inputs, outputs, circuit }
+        Learned { design: Design::new(logic), inputs, outputs, circuit }
     }
 }
 

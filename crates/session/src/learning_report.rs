@@ -39,12 +39,12 @@ impl LearningReport {
         let Learned { design, inputs, outputs, circuit } = learned;
         let held_out = circuit.accuracy(&circuit.held_out);
         Self {
-            circuit: design.logic.name.clone(),
+            circuit: design.netlist.name.clone(),
             inputs: inputs.clone(),
             outputs: outputs.clone(),
             ands: circuit.ands(),
-            cells: design.logic.cells().count(),
-            depth: levels::depth(&design.logic),
+            cells: design.netlist.cells().count(),
+            depth: levels::depth(&design.netlist),
             training: circuit.accuracy(&circuit.training),
             held_out: Some(held_out).filter(|held_out| held_out.rows > 0),
             bits: circuit.outputs.clone(),

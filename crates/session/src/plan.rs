@@ -1,11 +1,13 @@
 //! The plan of a circuit's swarm: the declared swarm with its robots, hold and window.
 
 use crate::choice::{check_swarm_is_clear, declared_swarm, swarms_of};
+use crate::mapping::Mapping;
 use crate::options::CompileOptions;
 use crate::robots::RobotSources;
 use crate::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Hold, Instance, Library, NamedWorld, Program, RegisterStyle, Swarm, WaveTimes};
+use nbc_circuit::Timing;
 use nbc_lang::check::DEFAULT_LIBRARY;
 
 #[derive(Clone, Debug)]
@@ -58,7 +60,7 @@ pub(super) fn of_swarm(
     options: &CompileOptions,
 ) -> Result<Plan, Vec<Diagnostic>> {
     let library = robots(sources, program, declaration.map(|swarm| swarm.library.as_str()), options)?;
-    Ok(Plan {
+    let plan = Plan {
         circuit: circuit.clone(),
         swarm: declaration.map(|swarm| swarm.name.clone()),
         library: nbc_swarm::prefer(library, options.objective),
@@ -66,8 +68,30 @@ pub(super) fn of_swarm(
         window: declaration.map_or(1, |swarm| swarm.window),
         registers: declaration.map_or(RegisterStyle::default(), |swarm| swarm.registers),
         waves: declaration.map_or(WaveTimes::default(), |swarm| swarm.waves),
-        world: declaration.map_or_else(|| program.default_world(), |swarm| swarm.world.clone()),
-    })
+        world: NamedWorld::default(),
+    };
+    Ok(plan.in_world(declaration.map_or_else(|| program.default_world(), |swarm| swarm.world.clone())))
+}
+
+impl Plan {
+    pub(super) fn in_world(mut self, world: NamedWorld) -> Self {
+        for robot in &mut self.library.robots {
+            let clock = &mut robot.character.clock;
+            *clock = *clock + world.world.lateness() - self.world.world.lateness();
+        }
+        Self { world, ..self }
+    }
+
+    pub(super) fn timing(&self, mapping: &Mapping) -> Timing {
+        let mut timing = mapping.timing();
+        timing.hold = self.stretched(timing.hold as usize) as u32;
+        timing
+    }
+
+    /// Cycles of the world in which each robot makes so many of its own.
+    pub(super) fn stretched(&self, cycles: usize) -> usize {
+        (cycles as f64 * (1.0 + self.world.world.noise.drift)).ceil() as usize
+    }
 }
 
 pub(super) fn robots(

@@ -53,6 +53,12 @@ impl RunningTest {
         true
     }
 
+    /// The verdicts over the rows that are judged so far.
+    pub fn found(&self) -> Vec<TestVerdict> {
+        let finished = self.runs.iter().map(|run| run.verdict.clone());
+        finished.chain(self.running.as_ref().and_then(RunningCase::found)).collect()
+    }
+
     pub fn is_complete(&self) -> bool {
         let is_over = self.running.is_none() && self.cases.len() == 0;
         is_over && self.runs.iter().all(|run| run.end == RunEnd::Complete)
@@ -131,6 +137,16 @@ impl RunningCase {
             observer.is_cancelled().then_some(RunEnd::Cancelled)
         } else {
             Some(RunEnd::Complete)
+        }
+    }
+
+    fn found(&self) -> Option<TestVerdict> {
+        match &self.subject {
+            Running::Robots(timed, swarm, _) => Some(timed.verdict(swarm.trace(), RunEnd::Cancelled)),
+            Running::Gates(..) | Running::Script(_) => {
+                Some(TestVerdict::of(&self.test, Level::Logic, self.verdicts.clone()))
+            }
+            Running::Search(..) => None,
         }
     }
 

@@ -101,6 +101,10 @@ impl DrivenSwarm {
         }
     }
 
+    pub(super) fn trace(&self) -> &SwarmTrace {
+        self.swarm.trace()
+    }
+
     pub(super) fn into_trace(self) -> SwarmTrace {
         self.swarm.into_trace()
     }

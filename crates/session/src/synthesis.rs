@@ -46,7 +46,7 @@ impl Synthesis {
         if !options.expand
             && let Err(error) = correspondence::prove(read, &whole.result, &removed)
         {
-            panic!("the circuit `{}` differs from its file: {error}", read.logic.name);
+            panic!("the circuit `{}` differs from its file: {error}", read.netlist.name);
         }
         let Made { design, source, result } = whole;
         let mut synthesis = Self { design, result, removed, what_if: Vec::new() };
@@ -60,7 +60,7 @@ impl Synthesis {
     }
 
     pub fn cells(&self) -> usize {
-        self.result.logic.cells().count()
+        self.result.netlist.cells().count()
     }
 }
 
@@ -96,10 +96,13 @@ struct Made {
 
 impl Made {
     fn of(design: Design, options: &SynthesisOptions) -> Result<Self, Diagnostic> {
-        let source = if options.expand { design.netlist() } else { design.logic.clone() };
+        let source = if options.expand { design.netlist.clone() } else { design.opened() };
         let logic = synthesize(source.clone(), &options.cells, &options.map, RegisterForm::Nands)?.netlist;
-        let registers = if options.expand { Vec::new() } else { design.registers.clone() };
-        let ascending = design.ascending.clone();
-        Ok(Self { design, source, result: Design { logic, registers, ascending } })
+        let result = match options.expand {
+            // Cells read the clock, so that it is a port.
+            true => Design { netlist: logic, clocks: 0, ..design.clone() },
+            false => design.closed(logic),
+        };
+        Ok(Self { design, source, result })
     }
 }

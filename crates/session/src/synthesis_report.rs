@@ -65,11 +65,11 @@ impl SynthesisReport {
         let Synthesis { design, result, removed, what_if } = synthesis;
         Self {
             cells: synthesis.cells(),
-            by_function: result.logic.by_function(),
-            depth: levels::depth(&result.logic),
-            inputs: design.inputs(),
-            outputs: design.outputs(),
-            latches: design.registers.len(),
+            by_function: result.netlist.by_function(),
+            depth: levels::depth(&result.netlist),
+            inputs: design.ports().len(),
+            outputs: design.netlist.outputs().len(),
+            latches: design.netlist.registers().count(),
             removed: removed.clone(),
             // A circuit whose logic is not proved is never reported.
             proved: true,

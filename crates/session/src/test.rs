@@ -107,9 +107,9 @@ pub(super) fn cases(
     let plans = plans(sources, program, &test.circuit, &options.compile)?;
     let mut rows_of_test = None;
     let mut cases = Vec::new();
-    for mut plan in plans {
+    for plan in plans {
         let worlds = if test.worlds.is_empty() { vec![plan.world.clone()] } else { test.worlds.clone() };
-        plan.world.clone_from(&worlds[0]);
+        let plan = plan.in_world(worlds[0].clone());
         let mut compiled = compile(program, netlist.clone(), plan, &options.compile.mapping(), test.span)?;
         if level.is_none() && compiled.assembly.members.len() >= LARGE {
             return logic(netlist);
@@ -132,17 +132,10 @@ pub(super) fn cases(
                 TestTiming::Holds(row_holds)
             }
         };
-        let rows: Arc<[TestRow]> = rows.into();
-        for world in worlds {
-            cases.push(case(TestSubject::Robots(Box::new(TimedTest {
-                test: own.clone(),
-                rows: rows.clone(),
-                compiled: compiled.in_world(world),
-                timing: timing.clone(),
-                ends_at_failure: false,
-                printed: printed.clone(),
-            }))));
-        }
+        let first =
+            TimedTest { test: own.clone(), rows: rows.into(), compiled, timing, ends_at_failure: false, printed };
+        let timed = |world| Box::new(first.in_world(world));
+        cases.extend(worlds.into_iter().map(|world| case(TestSubject::Robots(timed(world)))));
     }
     Ok(cases)
 }
@@ -300,7 +293,7 @@ impl TestCase {
         let mut trial = self.clone();
         if let TestSubject::Robots(timed) = &mut trial.subject {
             let name = timed.compiled.plan.world.name.clone();
-            timed.compiled = timed.compiled.in_world(NamedWorld { name, world });
+            **timed = timed.in_world(NamedWorld { name, world });
             timed.ends_at_failure = self.test.rows_from.as_ref().is_none_or(|from| from.at_least.is_none());
         }
         trial

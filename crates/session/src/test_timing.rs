@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::compile::Compiled;
 use crate::hold;
 use crate::swarm_run::RunEnd;
-use nbc_base::model::{CircuitTest, TestRow};
+use nbc_base::model::{CircuitTest, NamedWorld, TestRow};
 use nbc_swarm::{Level, RowHold, RowVerdict, SwarmTrace, TestVerdict, WaveTest};
 
 /// Only wave machines have more than thread 0.
@@ -50,6 +50,17 @@ impl TimedTest {
     fn waves<'a>(&'a self, rows: &'a [TestRow]) -> WaveTest<'a> {
         let machine = self.compiled.mapping.waves.as_ref().expect("only wave machines run in waves");
         WaveTest { test: &self.test, rows, machine }
+    }
+
+    /// The same test in another world, with rows held for as long as its robots need there.
+    pub fn in_world(&self, world: NamedWorld) -> Self {
+        let mut moved = Self { compiled: self.compiled.in_world(world), ..self.clone() };
+        if let TestTiming::Holds(row_holds) = &mut moved.timing
+            && moved.compiled.pace() != self.compiled.pace()
+        {
+            *row_holds = hold::again(&moved.rows, row_holds, &moved.compiled);
+        }
+        moved
     }
 
     /// The cycles through the first `rows` rows.

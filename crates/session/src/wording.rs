@@ -110,6 +110,12 @@ pub(super) fn no_multiplexer() -> Diagnostic {
     Diagnostic::without_place(Code::IncompleteLibrary, message).with_help("write `library: three`")
 }
 
+pub(super) fn waves_need_a_beat(world: &str) -> Diagnostic {
+    let message = format!("a wave machine cannot run in the world `{world}`, whose robots are not heard at one time");
+    let help = "all its robots react in the same cycle; leave out `phase`, `drift` and `hears`, or `registers: waves`";
+    Diagnostic::without_place(Code::NoWaves, message).with_help(help)
+}
+
 pub(super) fn no_waves(error: &WaveError) -> Diagnostic {
     match error {
         WaveError::Unmapped(error) => unmapped(error),

@@ -49,10 +49,10 @@ pub fn read_model(path: &Path) -> Result<AigerModel, Diagnostics> {
 
 pub fn read_circuit(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
     let read = read(from)?;
-    if read.design.outputs() > 0 {
+    if !read.design.netlist.outputs().is_empty() {
         return Ok(read);
     }
-    let circuit = read.design.logic.name.clone();
+    let circuit = read.design.netlist.name.clone();
     let files: Vec<_> = read.warnings.sources.iter().collect();
     let declares = |line: &str| {
         let mut words = line.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
@@ -101,7 +101,7 @@ fn read(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
         }
         None => return Err(wording::circuit_format(&name).into()),
     };
-    if design.registers.is_empty() {
+    if design.netlist.registers().next().is_none() {
         without_effect(&name, clock)?;
     }
     Ok(CircuitRead::plain(design, Diagnostics::default()))

@@ -36,7 +36,7 @@ fn up_to(limit: u64, file: impl Read) -> Result<Vec<u8>, FileError> {
 
 pub fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
     let bytes = read(path, limit)?;
-    String::from_utf8(bytes).map_err(|error| FileError::NotText { offset: error.utf8_error().valid_up_to() })
+    FileError::text(bytes)
 }
 
 pub(super) fn refusal(error: &std::io::Error) -> FileError {

@@ -60,7 +60,7 @@ pub struct Assembly {
     pub world: PhysicsWorld,
 }
 
-/// The fewest cycles in which robots settle into their shape after their fresh start.
+/// The fewest cycles in which robots settle into their shape after their fresh start, at the beginning of a cycle.
 const LEAST_START: usize = 2;
 
 /// The least ground of a swarm, in voxels.
@@ -71,7 +71,8 @@ impl Assembly {
     /// once. Their motion is ignored until the last of them is over, and the others sense their start values until
     /// then; otherwise a latch would lose its start value (docs/physics.md 14).
     pub fn start_cycles(&self) -> usize {
-        start_cycles(self.members.iter().map(|member| member.robot.character.clock))
+        let clocks = self.members.iter().map(|member| member.robot.character.clock);
+        start_cycles(clocks).max(LEAST_START + usize::from(self.world.lateness() > 0))
     }
 
     /// The same swarm in a world, in which its members may have weak or dead voxels.

@@ -62,7 +62,8 @@ pub fn screen(simulator: &Simulator, body: &Body, behavior: Behavior, most: u32)
 /// Share of wrong switches at the robot's clock in the first, cheap sequences; all if a simulation fails.
 pub(super) fn errors_in(simulator: &Simulator, robot: &Robot, world: &PhysicsWorld) -> f64 {
     let probe = Probe { world: *world, ..Probe::new(simulator, &robot.body, robot.behavior) };
-    let tally = probe.random(robot.character.clock, FIRST_SWITCHES, u32::MAX);
+    let clock = robot.character.clock + world.lateness();
+    let tally = probe.random(clock, FIRST_SWITCHES, u32::MAX);
     tally.map_or(1.0, |tally| tally.map_or(1.0, |tally| tally.error_rate()))
 }
 

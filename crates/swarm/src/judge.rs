@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::assemble::start_cycles;
-use crate::{RobotFault, RowVerdict, SwarmTrace, WrongOutput};
-use nbc_base::model::{CircuitTest, TestRow};
+use crate::{Flip, RobotFault, RowVerdict, StimulusSource, SwarmTrace, WrongOutput};
+use nbc_base::model::{CYCLE_STEPS, CircuitTest, TestRow};
 use nbc_circuit::{Netlist, Settled, SettledRow};
 
 /// Cycles over which an output must have had its value when its row ends.
@@ -145,13 +145,17 @@ pub(super) fn settled_margins(trace: &SwarmTrace, clocks: &[u32], window: usize)
 
 fn is_settled(trace: &SwarmTrace, cycle: usize, k: usize, clock: usize) -> bool {
     let sensed = trace.cycles[cycle].sensed[k];
-    cycle + 1 >= clock && trace.cycles[cycle + 1 - clock..=cycle].iter().all(|cycle| cycle.sensed[k] == sensed)
+    let Some(first) = (cycle + 1).checked_sub(clock) else { return false };
+    let is_same = trace.cycles[first..=cycle].iter().all(|cycle| cycle.sensed[k] == sensed);
+    let within = first as u32 * CYCLE_STEPS..(cycle + 1) as u32 * CYCLE_STEPS;
+    let is_sensed = |flip: &Flip| trace.robots[k].senses.contains(&StimulusSource::Robot(flip.robot));
+    is_same && !trace.flips.iter().any(|flip| within.contains(&flip.env_step) && is_sensed(flip))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{CycleTrace, Recording, RobotTrace, StimulusSource};
+    use crate::{CycleTrace, Recording, RobotTrace};
     use nbc_base::model::{Base, Column, Function, Pattern, Stimulation};
     use nbc_base::source::{FileId, Span};
 
@@ -185,6 +189,7 @@ mod tests {
                     outputs: vec![y],
                 })
                 .collect(),
+            flips: Vec::new(),
             recording: Recording::default(),
         }
     }

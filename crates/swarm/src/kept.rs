@@ -1,8 +1,9 @@
-//! A swarm at the end of a cycle as plain data, from which it goes on with the same bits. The paths of its robots are
-//! kept as far as the next outputs depend on them.
+//! A swarm at the end of a cycle as plain data, from which it goes on with the same bits.
 
 use serde::{Deserialize, Serialize};
 
+use crate::Flip;
+use crate::hearing::Heard;
 use nbc_base::model::{Fault, FaultKind};
 use nbc_sim::{Snapshot, State};
 
@@ -11,6 +12,8 @@ use nbc_sim::{Snapshot, State};
 pub struct KeptSwarm {
     /// For each cycle, the outputs of the robots as hexadecimal digits of four each.
     bits: Vec<String>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) flips: Vec<Flip>,
     robots: Vec<KeptRobot>,
 }
 
@@ -23,7 +26,8 @@ struct KeptRobot {
     center: [f64; 2],
     clock: u32,
     fault: Option<(u32, u8)>,
-    path: Vec<f64>,
+    output: bool,
+    places: Vec<f64>,
 }
 
 const FAULTS: [FaultKind; 3] = [FaultKind::Unstable, FaultKind::NonFinite, FaultKind::Stopped];
@@ -31,15 +35,16 @@ const FAULTS: [FaultKind; 3] = [FaultKind::Unstable, FaultKind::NonFinite, Fault
 impl KeptSwarm {
     pub(super) fn new<'a>(
         cycles: impl Iterator<Item = &'a [bool]>,
-        robots: impl Iterator<Item = (Snapshot, Vec<f64>)>,
+        flips: Vec<Flip>,
+        robots: impl Iterator<Item = (Snapshot, Heard)>,
     ) -> Self {
-        let robot = |(snapshot, path): (Snapshot, Vec<f64>)| {
+        let robot = |(snapshot, Heard { output, places }): (Snapshot, Heard)| {
             let Snapshot { state: State { position, previous, velocity }, center, clock, fault } = snapshot;
             let number = |kind| FAULTS.iter().position(|known| *known == kind).expect("every fault has a number") as u8;
             let fault = fault.map(|fault| (fault.env_step, number(fault.kind)));
-            KeptRobot { position, previous, velocity, center, clock, fault, path }
+            KeptRobot { position, previous, velocity, center, clock, fault, output, places: places.into() }
         };
-        Self { bits: cycles.map(digits).collect(), robots: robots.map(robot).collect() }
+        Self { bits: cycles.map(digits).collect(), flips, robots: robots.map(robot).collect() }
     }
 
     pub fn cycles(&self) -> usize {
@@ -53,13 +58,13 @@ impl KeptSwarm {
         is_whole.then(|| self.bits.iter().map(|text| outputs(text, robots)).collect())
     }
 
-    pub(super) fn robots(&self) -> impl Iterator<Item = (Snapshot, &[f64])> + '_ {
+    pub(super) fn robots(&self) -> impl Iterator<Item = (Snapshot, Heard)> + '_ {
         self.robots.iter().map(|robot| {
-            let KeptRobot { position, previous, velocity, center, clock, fault, path } = robot.clone();
+            let KeptRobot { position, previous, velocity, center, clock, fault, output, places } = robot.clone();
             let kind = |number: u8| FAULTS.get(usize::from(number)).copied().unwrap_or(FaultKind::Stopped);
             let fault = fault.map(|(env_step, number)| Fault { env_step, kind: kind(number) });
             let state = State { position, previous, velocity };
-            (Snapshot { state, center, clock, fault }, &robot.path[..path.len()])
+            (Snapshot { state, center, clock, fault }, Heard { output, places: places.into() })
         })
     }
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use crate::own_clock::OwnClock;
 use nbc_base::model::{
     Body, CYCLE_STEPS, Drive, Material, MaterialKind, Palette, Response, Schedule, Spell, WorldNoise,
 };
@@ -23,6 +24,7 @@ enum NoiseKind {
     Start,
     Missed,
     Dead,
+    Clock,
 }
 
 impl<'a> RobotNoise<'a> {
@@ -45,6 +47,27 @@ impl<'a> RobotNoise<'a> {
         }
     }
 
+    pub(crate) fn clock(self) -> OwnClock {
+        let WorldNoise { phase, drift, .. } = *self.noise;
+        if !self.noise.has_own_clocks() {
+            return OwnClock::default();
+        }
+        let mut rng = self.rng(NoiseKind::Clock);
+        let (ahead, faster) = (phase * unit(&mut rng), drift * (2.0 * unit(&mut rng) - 1.0));
+        OwnClock { phase: (ahead * f64::from(CYCLE_STEPS)) as u32, rate: (faster * 1e6) as i32 }
+    }
+
+    /// Env steps of a cycle of its own after which it senses that its stimuli have changed, where others cause this.
+    pub(crate) fn delay(self, cycle: usize) -> u32 {
+        if self.noise.phase <= 0.0 || cycle == 0 {
+            return 0;
+        }
+        let mut rng = self.rng(NoiseKind::Clock);
+        // The first two numbers are those of its own clock.
+        rng.set_word_pos(4 + 2 * cycle as u128);
+        (self.noise.phase * unit(&mut rng) * f64::from(CYCLE_STEPS)) as u32
+    }
+
     /// Whether the robot misses its stimuli in a cycle and keeps those of the cycle before. It never misses the first.
     pub(crate) fn misses(self, cycle: usize) -> bool {
         if self.noise.missed <= 0.0 || cycle == 0 {
@@ -57,14 +80,16 @@ impl<'a> RobotNoise<'a> {
     }
 
     pub(crate) fn sensed(self, schedule: &Schedule) -> Schedule {
-        if self.noise.missed <= 0.0 {
+        if self.noise.missed <= 0.0 && self.noise.phase <= 0.0 {
             return schedule.clone();
         }
         let shown = schedule.spells.iter().map(|spell| (spell.steps as usize, Spell { steps: 0, ..spell.clone() }));
         let mut steps: Vec<Spell> = shown.flat_map(|(steps, shown)| std::iter::repeat_n(shown, steps)).collect();
         for start in (0..steps.len()).step_by(CYCLE_STEPS as usize) {
-            if self.misses(start / CYCLE_STEPS as usize) {
-                let (before, end) = (steps[start - 1].clone(), steps.len().min(start + CYCLE_STEPS as usize));
+            let cycle = start / CYCLE_STEPS as usize;
+            let late = if self.misses(cycle) { CYCLE_STEPS } else { self.delay(cycle) };
+            if late > 0 {
+                let (before, end) = (steps[start - 1].clone(), steps.len().min(start + late as usize));
                 steps[start..end].fill(before);
             }
         }
@@ -126,7 +151,8 @@ mod tests {
     use super::*;
     use nbc_base::model::Pattern;
 
-    const NOISE: WorldNoise = WorldNoise { start: 0.5, missed: 0.5, weak: 0.5, dead: 0.5, seed: 7 };
+    const NOISE: WorldNoise =
+        WorldNoise { start: 0.5, missed: 0.5, weak: 0.5, dead: 0.5, phase: 0.5, drift: 0.02, seed: 7 };
 
     fn robot(noise: &WorldNoise, robot: usize) -> RobotNoise<'_> {
         RobotNoise::new(noise, robot)
@@ -142,22 +168,51 @@ mod tests {
     }
 
     #[test]
+    fn clocks_are_ahead_and_drift_to_either_side_within_the_bounds() {
+        let clocks: Vec<OwnClock> = (0..100).map(|i| robot(&NOISE, i).clock()).collect();
+        assert!(clocks.iter().all(|clock| clock.phase < 42 && clock.rate.abs() <= 20_000));
+        assert!(clocks.iter().any(|clock| clock.phase > 30 && clock.rate < 0));
+        assert!(clocks.iter().any(|clock| clock.phase < 10 && clock.rate > 0));
+        assert_eq!(robot(&WorldNoise::default(), 3).clock(), OwnClock::default());
+    }
+
+    #[test]
     fn about_half_of_the_cycles_are_missed_and_keep_the_stimuli_before() {
-        let missed = (1..1000).filter(|&cycle| robot(&NOISE, 0).misses(cycle)).count();
+        let noise = WorldNoise { phase: 0.0, ..NOISE };
+        let missed = (1..1000).filter(|&cycle| robot(&noise, 0).misses(cycle)).count();
         assert!((450..550).contains(&missed), "{missed}");
         let spell = |pair: usize| Spell::of(Pattern::PAIRS[pair], CYCLE_STEPS);
         let schedule = Schedule { spells: (0..100).map(|cycle| spell(cycle % 4)).collect() };
-        let sensed = robot(&NOISE, 0).sensed(&schedule);
+        let sensed = robot(&noise, 0).sensed(&schedule);
         assert_eq!(sensed.steps(), schedule.steps());
         let mut at = 0;
         let cycles: Vec<Pattern> =
             sensed.spells.iter().flat_map(|spell| vec![spell.pattern; (spell.steps / CYCLE_STEPS) as usize]).collect();
         while at < 100 {
-            let expected = if robot(&NOISE, 0).misses(at) { cycles[at - 1] } else { Pattern::PAIRS[at % 4] };
+            let expected = if robot(&noise, 0).misses(at) { cycles[at - 1] } else { Pattern::PAIRS[at % 4] };
             assert_eq!(cycles[at], expected, "cycle {at}");
             at += 1;
         }
         assert_eq!(robot(&WorldNoise::default(), 0).sensed(&schedule), schedule);
+    }
+
+    #[test]
+    fn a_robot_with_its_own_phase_senses_each_change_within_a_cycle() {
+        let noise = WorldNoise { missed: 0.0, ..NOISE };
+        let spell = |pair: usize| Spell::of(Pattern::PAIRS[pair], 2 * CYCLE_STEPS);
+        let schedule = Schedule { spells: (0..50).map(|spell_at| spell(spell_at % 4)).collect() };
+        let sensed = robot(&noise, 0).sensed(&schedule);
+        let mut end = 0;
+        let late: Vec<u32> = (1..50)
+            .zip(&sensed.spells)
+            .map(|(i, spell)| {
+                assert_eq!(spell.pattern, schedule.spells[i - 1].pattern);
+                end += spell.steps;
+                end - i as u32 * 2 * CYCLE_STEPS
+            })
+            .collect();
+        assert!(late.iter().all(|&steps| steps < 42) && late.iter().any(|&steps| steps > 30));
+        assert_eq!(sensed.steps(), schedule.steps());
     }
 
     #[test]

@@ -5,6 +5,9 @@ use rand_chacha::ChaCha8Rng;
 
 use nbc_base::model::{PhysicsWorld, Variation};
 
+/// Those drawn before the seed of the noise. Quantities that were added are drawn after it, so that samples stay.
+const FIRST_DRAWS: usize = 10;
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorldSample {
     pub variation: Variation,
@@ -16,10 +19,18 @@ impl WorldSample {
     pub fn world(&self, around: &PhysicsWorld, number: usize) -> PhysicsWorld {
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         rng.set_stream(number as u64);
-        let draws = std::array::from_fn::<f64, { Variation::DRAWS }, _>(|_| 2.0 * rng.random::<f64>() - 1.0);
+        let mut draws = [0.0; Variation::DRAWS];
+        let (first, added) = draws.split_at_mut(FIRST_DRAWS);
+        fill(first, &mut rng);
         // A seed that the language can write.
-        self.variation.world(around, draws, rng.random::<u32>().into())
+        let seed = rng.random::<u32>().into();
+        fill(added, &mut rng);
+        self.variation.world(around, draws, seed)
     }
+}
+
+fn fill(draws: &mut [f64], rng: &mut ChaCha8Rng) {
+    draws.fill_with(|| 2.0 * rng.random::<f64>() - 1.0);
 }
 
 #[cfg(test)]

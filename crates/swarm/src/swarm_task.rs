@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bit_rows;
 use crate::sensing::Sensing;
-use crate::{Assembly, Member, StimulusSource, SwarmConditions, SwarmTrace, simulate};
+use crate::{Assembly, Flip, Member, StimulusSource, SwarmConditions, SwarmTrace, simulate};
 use nbc_base::model::{Body, Character, Column, Displacements, Fault, PhysicsWorld, Provenance, Robot, bodies};
 use nbc_sim::Simulator;
 
@@ -21,6 +21,8 @@ pub struct SwarmBits {
     /// The cycles in order; fewer than those of the task if it was stopped or a robot failed.
     #[serde(with = "bit_rows")]
     pub cycles: Vec<Vec<bool>>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub flips: Vec<Flip>,
     pub fault: Option<(usize, Fault)>,
 }
 
@@ -156,11 +158,12 @@ impl PlainMember {
 impl SwarmBits {
     pub fn simulate(simulator: &Simulator, task: &SwarmTask) -> Self {
         let trace = simulate(simulator, &task.assembly, &task.conditions, &mut |_| ());
-        Self { fault: trace.first_fault(), cycles: trace.cycles.into_iter().map(|cycle| cycle.bits).collect() }
+        let fault = trace.first_fault();
+        Self { fault, flips: trace.flips, cycles: trace.cycles.into_iter().map(|cycle| cycle.bits).collect() }
     }
 
     pub fn trace(&self, assembly: &Assembly, inputs: &[Vec<bool>]) -> SwarmTrace {
-        let mut trace = Sensing::replayed(assembly, &self.cycles, inputs).1;
+        let mut trace = Sensing::replayed(assembly, &self.cycles, &self.flips, inputs).1;
         if let Some((robot, fault)) = self.fault {
             trace.robots[robot].fault = Some(fault);
         }
@@ -195,8 +198,9 @@ mod tests {
         }
         .in_world(PhysicsWorld {
             factors: WorldFactors { friction: 0.9, ..WorldFactors::default() },
-            noise: WorldNoise { start: 0.5, missed: 0.4, weak: 0.1, dead: 0.1, seed: 3 },
+            noise: WorldNoise { start: 0.5, missed: 0.4, weak: 0.1, dead: 0.1, seed: 3, ..WorldNoise::default() },
             ground: GroundProfile::new(&[0, 0, 0, 2]).unwrap(),
+            ..PhysicsWorld::default()
         })
     }
 

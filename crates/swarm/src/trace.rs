@@ -1,6 +1,6 @@
 //! The trace of a swarm: every robot's path, and every net's bit in every cycle.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::{Assembly, Member, Recording, RobotFault, StimulusSource};
 use nbc_base::model::{CYCLE_STEPS, Column, Fault, Function, Pattern, Value};
@@ -16,6 +16,9 @@ pub struct SwarmTrace {
     pub robots: Vec<RobotTrace>,
     /// The cycles, first to last. One in which a robot failed has no outputs and is not among them.
     pub cycles: Vec<CycleTrace>,
+    /// The outputs that changed within cycles, in order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub flips: Vec<Flip>,
     #[serde(skip)]
     pub recording: Recording,
 }
@@ -45,6 +48,14 @@ pub struct CycleTrace {
     pub outputs: Vec<bool>,
 }
 
+/// The change of a robot's output within a cycle of the world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Flip {
+    /// The env steps from the start of the simulation.
+    pub env_step: u32,
+    pub robot: usize,
+}
+
 impl SwarmTrace {
     pub(super) const SAMPLES_PER_CYCLE: usize = 12;
 
@@ -67,6 +78,7 @@ impl SwarmTrace {
             samples_per_cycle: Self::SAMPLES_PER_CYCLE,
             robots: assembly.members.iter().map(robot).collect(),
             cycles: Vec::new(),
+            flips: Vec::new(),
             recording: Recording::default(),
         }
     }
@@ -77,6 +89,7 @@ impl SwarmTrace {
 
     pub fn forget_first(&mut self, cycles: usize) {
         self.cycles.drain(..cycles);
+        self.flips.clear();
         for robot in &mut self.robots {
             robot.com_x.drain(..cycles * self.samples_per_cycle);
         }
@@ -94,7 +107,8 @@ impl SwarmTrace {
         Some(RobotFault { net: net.clone(), robot: robot.clone(), cycle, env_step, kind })
     }
 
-    pub(super) fn forget_unfinished(&mut self) {
+    pub(super) fn forget_unfinished(&mut self, start: u32) {
+        self.flips.retain(|flip| flip.env_step <= start);
         for robot in &mut self.robots {
             robot.com_x.truncate(robot.com_x.len() - self.samples_per_cycle);
         }

@@ -69,8 +69,8 @@ extern "C" fn room(length: usize) -> *mut u8 {
 
 #[unsafe(no_mangle)]
 extern "C" fn insert(path: *mut u8, path_length: usize, place: *mut u8, length: usize) {
-    let (path, text) = (text(path, path_length), text(place, length));
-    with_tab(|tab| tab.insert(&path, &text));
+    let (path, contents) = (text(path, path_length), bytes(place, length));
+    with_tab(|tab| tab.insert(&path, &contents));
 }
 
 #[unsafe(no_mangle)]

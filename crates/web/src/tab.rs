@@ -57,8 +57,8 @@ impl Tab {
     }
 
     /// Adds a file, or replaces it: one that was kept, or that another tab has written.
-    pub fn insert(&self, path: &str, text: &str) {
-        self.folder.insert(path, text);
+    pub fn insert(&self, path: &str, contents: impl AsRef<[u8]>) {
+        self.folder.insert(path, contents);
     }
 
     pub fn remove(&self, path: &str) {

@@ -216,7 +216,7 @@ class Report:
 
     def _repr_html_(self) -> str:
         page = html.escape(self.page, quote=True)
-        return f'<iframe srcdoc="{page}" style="width:100%;height:720px;border:0"></iframe>'
+        return f'<iframe sandbox="allow-scripts" srcdoc="{page}" style="width:100%;height:720px;border:0"></iframe>'
 
 
 class Program:

@@ -31,7 +31,7 @@ pub struct BenchArguments {
     /// Also show the share of time of each stage of a substep, with one body in all lanes
     #[arg(long)]
     timings: bool,
-    /// Also measure a swarm of 29 robots, on one core and on all threads
+    /// Also measure a swarm of 28 robots, on one core and on all threads
     #[arg(long)]
     swarm: bool,
     #[command(flatten)]

@@ -46,10 +46,10 @@ world that the test names. A robot whose simulation fails fails its row and all 
 circuits of fewer than 40 robots are tested in physics and larger ones at the level of logic.
 
 With --vary, each test runs in physics in a sample of worlds. Each factor (friction, gravity, stiffness, drag, \
-damping, swelling) is uniform within its change to either side, and each noise (start, missed, weak, dead) from \
-nothing to its change. The output has the share of worlds in which the test passes, with its 95 % interval, the \
-robots that fail first, and the smallest margin of the others. A test that fails in some worlds does not change \
-the exit status, unless --least-yield asks for more.
+damping, swelling) is uniform within its change to either side, and each noise (start, missed, weak, dead, phase, \
+drift) from nothing to its change. The output has the share of worlds in which the test passes, with its 95 % \
+interval, the robots that fail first, and the smallest margin of the others. A test that fails in some worlds does \
+not change the exit status, unless --least-yield asks for more.
 Exit status: 0 every test passed, 1 a test failed or its yield is too low, 2 the file has errors, 4 interrupted.")]
 pub struct TestArguments {
     /// The source files

@@ -59,6 +59,7 @@ pub fn latch(rows: &[(bool, bool)], hold: usize) -> SwarmTrace {
         samples_per_cycle: 4,
         robots: robots.collect(),
         cycles,
+        flips: Vec::new(),
         recording: Recording::default(),
     }
 }

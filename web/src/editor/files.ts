@@ -3,6 +3,7 @@
 import { ask } from "../dialog";
 import { button, element, fill, iconButton } from "../element";
 import { INVISIBLE } from "../tab/zip";
+import pictures from "../../gallery.json";
 import { freePath } from "../free_path";
 import type { ExampleEntry } from "../protocol";
 
@@ -69,14 +70,11 @@ export class FilePicker {
       this.transfer,
       section(
         "Examples",
-        examples.map(({ name, about }) =>
-          element(
-            "li",
-            {},
-            this.#opener(name, () => this.doors.openExample(name)),
-            element("span", {}, about),
-          ),
-        ),
+        examples.map(({ name, about }) => {
+          const open = this.#opener(name, () => this.doors.openExample(name));
+          open.prepend(element("img", { src: (pictures as Record<string, string>)[name], alt: "" }));
+          return element("li", { class: "example" }, open, element("span", {}, about));
+        }),
       ),
     );
     if (!this.host.open) {

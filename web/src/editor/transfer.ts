@@ -4,7 +4,8 @@ import { counted } from "../counted";
 import { downloadBytes } from "../download";
 import { button, element, fill } from "../element";
 import type { BrowserFolder } from "../line";
-import { INVISIBLE, MOST_FILE, ZipError, decoded, unzip, zip, type Unzipped } from "../tab/zip";
+import type { KeptFiles } from "../tab/files";
+import { INVISIBLE, MOST_FILE, ZipError, contentsOf, unzip, zip } from "../tab/zip";
 
 export class Transfer {
   readonly host: HTMLElement;
@@ -37,10 +38,10 @@ export class Transfer {
   }
 
   async take(files: File[]): Promise<void> {
-    const read: Unzipped = { files: [], leftOut: [] };
+    const read: KeptFiles = [];
     for (const file of files) {
       try {
-        await add(file, read);
+        read.push(...(await filesOf(file)));
       } catch (error) {
         if (!(error instanceof ZipError)) {
           throw error;
@@ -50,11 +51,11 @@ export class Transfer {
       }
     }
     const isArchive = files.some(({ name }) => name.endsWith(".zip"));
-    const program = isArchive ? undefined : read.files.find(([path]) => path.endsWith(".nb"));
+    const [path, text] = (isArchive ? undefined : read.find(([path]) => path.endsWith(".nb"))) ?? [null];
     if (this.folder !== null) {
-      this.#offer(this.folder, read, program?.[0] ?? null);
-    } else if (program !== undefined) {
-      this.open(...program);
+      this.#offer(this.folder, read, path);
+    } else if (path !== null && typeof text === "string") {
+      this.open(path, text);
     } else {
       fill(this.#status, "Only programs (.nb) can be opened from here. Put other files into the folder.");
     }
@@ -73,13 +74,12 @@ export class Transfer {
   }
 
   /** Puts files into the folder; what is there already is not replaced without a question. */
-  #offer(folder: BrowserFolder, read: Unzipped, program: string | null): void {
+  #offer(folder: BrowserFolder, read: KeptFiles, program: string | null): void {
     const known = new Map(folder.files());
-    const paths = read.files.flatMap(([path, text]) => (known.has(path) && known.get(path) !== text ? [path] : []));
-    const insert = (files: Unzipped["files"]): void => {
+    const paths = read.flatMap(([path, text]) => (known.has(path) && known.get(path) !== text ? [path] : []));
+    const insert = (files: KeptFiles): void => {
       files.forEach(([path, text]) => folder.insert(path, text));
-      const without = read.leftOut.length === 0 ? "" : ` Left out, because they are no text: ${names(read.leftOut)}.`;
-      fill(this.#status, `${counted(files.length, "file")} imported.${without}`);
+      fill(this.#status, `${counted(files.length, "file")} imported.`);
       if (program === null) {
         this.changed();
       } else {
@@ -87,17 +87,17 @@ export class Transfer {
       }
     };
     if (paths.length === 0) {
-      insert(read.files);
+      insert(read);
       return;
     }
-    const others = read.files.filter(([path]) => !paths.includes(path));
+    const others = read.filter(([path]) => !paths.includes(path));
     fill(
       this.#status,
       element("p", {}, `Other files of these names are there already: ${names(paths)}.`),
       element(
         "p",
         { class: "row" },
-        button("Replace them", () => insert(read.files), { "data-do": "replace-files" }),
+        button("Replace them", () => insert(read), { "data-do": "replace-files" }),
         button("Keep mine", () => insert(others), { "data-do": "keep-files" }),
         button("Import nothing", () => fill(this.#status)),
       ),
@@ -105,7 +105,7 @@ export class Transfer {
   }
 }
 
-async function add(file: File, read: Unzipped): Promise<void> {
+async function filesOf(file: File): Promise<KeptFiles> {
   const isArchive = file.name.endsWith(".zip");
   if (INVISIBLE.test(file.name)) {
     throw new ZipError("its name has invisible characters");
@@ -114,16 +114,7 @@ async function add(file: File, read: Unzipped): Promise<void> {
     throw new ZipError("the file is larger than 1 MB");
   }
   const bytes = new Uint8Array(await file.arrayBuffer());
-  const text = isArchive ? null : decoded(bytes);
-  if (isArchive) {
-    const inside = unzip(bytes);
-    read.files.push(...inside.files);
-    read.leftOut.push(...inside.leftOut);
-  } else if (text === null) {
-    read.leftOut.push(file.name);
-  } else {
-    read.files.push([file.name, text]);
-  }
+  return isArchive ? unzip(bytes) : [[file.name, contentsOf(bytes)]];
 }
 
 const MOST = 5;

@@ -140,6 +140,19 @@ export function drawLamp(pen: Pen, value: number | null, x: number, y: number, r
   pen.fill();
 }
 
+/** The dial of a robot that counts its own cycles, with the share of the present one that is over. */
+export function drawDial(pen: Pen, share: number, x: number, y: number, radius: number, colors: Colors): void {
+  pen.lineWidth = 1.5;
+  pen.strokeStyle = pen.fillStyle = colors.dim;
+  pen.beginPath();
+  pen.arc(x, y, radius, 0, 2 * Math.PI);
+  pen.stroke();
+  pen.beginPath();
+  pen.moveTo(x, y);
+  pen.arc(x, y, radius - 2.5, -Math.PI / 2, (2 * share - 0.5) * Math.PI);
+  pen.fill();
+}
+
 /** A square for a stimulus, filled while it is present. */
 export function drawStimulus(
   pen: Pen,

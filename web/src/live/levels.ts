@@ -12,18 +12,13 @@ export interface Band {
   colors: Pick<Colors, "one" | "zero" | "dim" | "ink">;
 }
 
-/** A bit from a cycle to another one; where it is not known, there is nothing. */
-export function drawBit(
-  pen: Pen,
-  band: Band,
-  [from, to]: [number, number],
-  value: (cycle: number) => number | null,
-): void {
+/** A bit with the values from some moments on, up to the last of these; where it is not known, there is nothing. */
+export function drawBit(pen: Pen, band: Band, times: number[], value: (time: number) => number | null): void {
   let before: number | null = null;
-  for (let cycle = from; cycle <= to; cycle++) {
-    const now = value(cycle);
+  for (const [i, time] of times.slice(0, -1).entries()) {
+    const now = value(time);
     if (now !== null) {
-      drawLevel(pen, band, cycle, now, before);
+      drawLevel(pen, band, [time, times[i + 1] ?? time], now, before);
     }
     before = now;
   }
@@ -33,11 +28,11 @@ export function drawBit(
 function drawLevel(
   pen: Pen,
   { high, low, x, colors }: Band,
-  cycle: number,
+  [from, to]: [number, number],
   value: number,
   before: number | null,
 ): void {
-  const [left, right] = [x(cycle), x(cycle + 1)];
+  const [left, right] = [x(from), x(to)];
   pen.fillStyle = value === 1 ? colors.one : colors.zero;
   if (value === 1) {
     pen.globalAlpha = 0.18;
@@ -57,18 +52,18 @@ function drawLevel(
 export function drawBus<Value extends bigint | string>(
   pen: Pen,
   { high, low, x, left: least, colors }: Band,
-  [from, to]: [number, number],
-  value: (cycle: number) => Value,
+  times: number[],
+  value: (time: number) => Value,
   text: (value: Value) => string,
 ): void {
   pen.lineWidth = 1.2;
-  for (let begin = from; begin <= to; ) {
-    const now = value(begin);
+  for (let begin = 0; begin + 1 < times.length; ) {
+    const now = value(times[begin] ?? 0);
     let end = begin + 1;
-    while (end <= to && value(end) === now) {
+    while (end + 1 < times.length && value(times[end] ?? 0) === now) {
       end++;
     }
-    const [left, right] = [x(begin), x(end)];
+    const [left, right] = [x(times[begin] ?? 0), x(times[end] ?? 0)];
     pen.strokeStyle = now === 0n ? colors.zero : colors.one;
     pen.strokeRect(left + 0.5, high, right - left - 1, low - high);
     const inner = Math.max(left, least);

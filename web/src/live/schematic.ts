@@ -1,5 +1,4 @@
-// The schematic that the server drew, with nets and robots marked by their values now; it can be zoomed and moved. Who
-// comes near a part opens it, and who goes far from it sees again what is around it.
+// The schematic with the values of nets and robots. Zooming in opens a part; zooming out closes it.
 
 import { button, element, fill, iconButton } from "../element";
 import type { StimulusSource, SchematicPages } from "../protocol";

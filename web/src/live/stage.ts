@@ -4,7 +4,7 @@ import { colors } from "../colors";
 import { enlargement } from "../theme";
 import { LaneGrid, middleOf } from "./camera";
 import { crowdGrid, detailOf, drawDot, drawSilhouette } from "./crowd";
-import { drawLamp, drawRobot, drawStimulus, drawThread, type Lane } from "./drawing";
+import { drawDial, drawLamp, drawRobot, drawStimulus, drawThread, type Lane } from "./drawing";
 import { fitCall } from "./labels";
 import { CanvasPane, type Pen } from "./pane";
 import type { LiveSwarm } from "./swarm";
@@ -160,7 +160,12 @@ export class Stage implements View {
     if (thread !== null) {
       drawThread(pen, thread, { left, top, height, right }, size, colors.value);
     }
-    this.#drawLabel(pen, robot, left + 10, top, right - left - 14 - (this.#hasThreads() ? 26 * size : 0));
+    const share = this.swarm.ownCycle(robot);
+    if (share !== null) {
+      drawDial(pen, share, right - 13 * size, top + 18 * size, 9 * size, colors.value);
+    }
+    const isMarked = this.#hasThreads() || share !== null;
+    this.#drawLabel(pen, robot, left + 10, top, right - left - 14 - (isMarked ? 26 * size : 0));
     drawLamp(pen, this.swarm.value({ robot }), left + width - 18 * size, top + 18 * size, 12 * size, colors.value);
     if (sameSource(this.swarm.selection.pointed.value, { robot })) {
       pen.strokeStyle = colors.value.accent;

@@ -1,7 +1,7 @@
 // The swarm of this session: what it consists of, where its run is, and the requests that drive it.
 
 import type { Connection } from "../connection";
-import { decodeFrame, isFrameOf, type Frame } from "../frame";
+import { CYCLE_STEPS, decodeFrame, isFrameOf, type Frame } from "../frame";
 import { RunLog } from "../log";
 import { Observable } from "../observable";
 import { bitsOf, keepBits, totalWidth, withBit } from "../ports";
@@ -196,6 +196,37 @@ export class LiveSwarm {
     return logged?.robots[source.robot] ?? null;
   }
 
+  /** The moments within a cycle at which one of these changed: from `cycle` to `cycle + 1`. */
+  edges(sources: StimulusSource[], cycle: number): number[] {
+    const robots = sources.flatMap(source => ("robot" in source ? [source.robot] : []));
+    const own = this.log.at(cycle)?.flips.filter(([robot]) => robots.includes(robot)) ?? [];
+    return [...new Set(own.map(([, after]) => cycle + after))];
+  }
+
+  /** The value of a source at such a moment: a robot with a clock of its own has the one before until it changes. */
+  valueAt(source: StimulusSource, time: number): number | null {
+    const cycle = Math.floor(time);
+    const logged = this.log.at(cycle);
+    if (!("robot" in source) || logged === undefined || this.definition.value?.own_clocks.length === 0) {
+      return this.value(source, cycle);
+    }
+    const before = this.value(source, cycle - 1) ?? 0;
+    return logged.flips.reduce(
+      (bit, [at, after]) => bit ^ Number(at === source.robot && cycle + after <= time),
+      before,
+    );
+  }
+
+  /** The share of its own cycle that a robot has done at the shown moment; null with a common clock. */
+  ownCycle(robot: number): number | null {
+    const [ahead, faster] = this.definition.value?.own_clocks[robot] ?? [];
+    if (ahead === undefined || faster === undefined) {
+      return null;
+    }
+    const cycles = this.playback.time * (1 + faster / 1e6) + ahead / CYCLE_STEPS;
+    return cycles - Math.floor(cycles);
+  }
+
   /** The thread whose wave a source carries in the cycle that is shown; null where there is but one, or none. */
   thread(source: StimulusSource, cycle = this.playback.cycle): number | null {
     const waves = this.definition.value?.waves ?? null;
@@ -238,14 +269,8 @@ export class LiveSwarm {
     this.running.set(running);
     this.#rests &&= running;
     this.#orders++;
-    const ended = (done: boolean): boolean => {
-      this.#orders--;
-      return done;
-    };
-    return this.server.request(verb, fields).then(
-      () => ended(true),
-      () => ended(false),
-    );
+    const answered = this.server.request(verb, fields).finally(() => this.#orders--);
+    return answered.then(Boolean, () => false);
   }
 
   #adoptInputs(frame: Frame): void {

@@ -100,16 +100,20 @@ export class Waveform extends Diagram {
   }
 
   #drawSignal(pen: Pen, { sources, valued }: WaveRow, [high, low]: [number, number]): void {
-    const [start, ...cycles] = this.#cycles();
+    const [start, from, to] = this.#cycles();
+    const times = [from];
+    for (let cycle = from; cycle <= to; cycle++) {
+      times.push(...this.swarm.edges(sources, cycle), cycle + 1);
+    }
     const x = (cycle: number): number => this.x(cycle - 1, start);
     const band = { high, low, x, left: this.label, colors: colors.value };
     if (sources.length === 1) {
-      drawBit(pen, band, cycles, cycle => this.swarm.value(sources[0] as StimulusSource, cycle));
+      drawBit(pen, band, times, time => this.swarm.valueAt(sources[0] as StimulusSource, time));
       return;
     }
-    const value = (cycle: number): bigint => toNumber(sources.map(source => this.swarm.value(source, cycle) ?? 0));
+    const value = (time: number): bigint => toNumber(sources.map(source => this.swarm.valueAt(source, time) ?? 0));
     pen.font = `${11 * enlargement.value}px ${colors.value.font}`;
-    drawBus(pen, band, cycles, value, number => numberText(number, valued));
+    drawBus(pen, band, times, value, number => numberText(number, valued));
   }
 
   #cycles(): [number, number, number] {

@@ -119,7 +119,7 @@ export class Waveform {
     const x = (cycle: number): number => this.#x(cycle + row.shift);
     const band = { high, low, x, left: this.#label, colors: { ...colors.value, one: color, zero: color } };
     const { values } = row;
-    const cycles: [number, number] = [0, values.length - 1];
+    const cycles = Array.from({ length: values.length + 1 }, (_, cycle) => cycle);
     if (typeof values === "string") {
       drawBit(pen, band, cycles, cycle => Number(values[cycle]));
     } else {

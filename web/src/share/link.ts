@@ -60,24 +60,15 @@ export async function decodeShare(link: string): Promise<SharedProgram> {
 }
 
 async function parsed(code: string): Promise<unknown> {
-  const bytes = decodeBase64Url(code);
-  if (bytes === null) {
-    throw damaged();
-  }
-  let json: Uint8Array | null;
   try {
-    json = unpack(bytes, MOST_BYTES);
+    const json = unpack(decodeBase64Url(code) ?? new Uint8Array(), MOST_BYTES);
+    if (json !== null) {
+      return JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(json));
+    }
   } catch {
     throw damaged();
   }
-  if (json === null) {
-    throw new LinkError("the program in the link is too long");
-  }
-  try {
-    return JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(json));
-  } catch {
-    throw damaged();
-  }
+  throw new LinkError("the program in the link is too long");
 }
 
 function damaged(): LinkError {

@@ -1,6 +1,7 @@
 // A program beside that of the page, for work that takes long. The page is not kept waiting by it, and can stop it at
 // any moment: its worker is ended then.
 
+import type { Contents } from "./files";
 import type { ServerMessage } from "../protocol";
 import type { FromWorker, ToWorker } from "./messages";
 
@@ -37,7 +38,7 @@ export class Aside {
     this.begin().postMessage(message);
   }
 
-  insert(path: string, text: string | null): void {
+  insert(path: string, text: Contents | null): void {
     this.#worker?.postMessage({ say: "insert", path, text } satisfies ToWorker);
   }
 

@@ -1,5 +1,7 @@
 // The program as WebAssembly: the functions of crates/web/src/exports.rs as a script calls them.
 
+import type { Contents } from "./files";
+
 export type EngineMessage =
   | { kind: "page"; data: string | ArrayBuffer }
   | { kind: "language"; text: string }
@@ -68,12 +70,12 @@ export class Engine {
     return this.#bytes(0);
   }
 
-  /** Adds a file, or replaces it; without a text, deletes it. */
-  insert(path: string, text: string | null): void {
+  /** Adds a file, or replaces it; without contents, deletes it. */
+  insert(path: string, text: Contents | null): void {
     if (text === null) {
       this.#exports.remove(...this.#put(path));
     } else {
-      this.#exports.insert(...this.#put(path), ...this.#put(text));
+      this.#exports.insert(...this.#put(path), ...(typeof text === "string" ? this.#put(text) : this.#putBytes(text)));
     }
   }
 

@@ -3,7 +3,9 @@
 const NAME = "nbc";
 const STORE = "files";
 
-export type KeptFiles = [path: string, text: string][];
+/** Text, or the bytes of a file that is none. */
+export type Contents = string | Uint8Array<ArrayBuffer>;
+export type KeptFiles = [path: string, contents: Contents][];
 
 export class FileStore {
   readonly #channel = new BroadcastChannel("nbc-files");
@@ -35,7 +37,7 @@ export class FileStore {
         if (at === null) {
           resolve(found);
         } else {
-          found.push([String(at.key), String(at.value)]);
+          found.push([String(at.key), at.value as Contents]);
           at.continue();
         }
       };
@@ -44,12 +46,12 @@ export class FileStore {
   }
 
   /** Keeps a file. Calls `done` with whether that was possible: a browser may have no room, or forbid it. */
-  put(path: string, text: string, done: (isKept: boolean) => void): void {
+  put(path: string, contents: Contents, done: (isKept: boolean) => void): void {
     const change = this.database.transaction(STORE, "readwrite");
     change.oncomplete = () => done(true);
     change.onabort = () => done(false);
-    change.objectStore(STORE).put(text, path);
-    this.#channel.postMessage([path, text]);
+    change.objectStore(STORE).put(contents, path);
+    this.#channel.postMessage([path, contents]);
   }
 
   remove(path: string): void {
@@ -57,8 +59,8 @@ export class FileStore {
     this.#channel.postMessage([path, null]);
   }
 
-  /** Calls `take` for each file that another tab writes, or deletes, with no text. */
-  follow(take: (path: string, text: string | null) => void): void {
-    this.#channel.onmessage = ({ data }) => take(...(data as [string, string | null]));
+  /** Calls `take` for each file that another tab writes, or deletes, with no contents. */
+  follow(take: (path: string, contents: Contents | null) => void): void {
+    this.#channel.onmessage = ({ data }) => take(...(data as [string, Contents | null]));
   }
 }

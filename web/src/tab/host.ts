@@ -3,6 +3,7 @@
 import type { BrowserFolder, Dial, LineEvents, Ways } from "../line";
 import { Observable } from "../observable";
 import type { Aside } from "./aside";
+import type { Contents } from "./files";
 import type { FromWorker, LiveParts, Source, Start, ToWorker } from "./messages";
 import { MadeFiles } from "./made";
 import { Programs } from "./programs";
@@ -80,15 +81,15 @@ export class TabHost implements Ways {
     };
   }
 
-  /** Adds a file to all programs, and to those that the browser keeps; without a text, deletes it. */
-  #insert(path: string, text: string | null): void {
+  /** Adds a file to all programs, and to those that the browser keeps; without contents, deletes it. */
+  #insert(path: string, text: Contents | null): void {
     if (this.#worker !== null) {
       post(this.#worker, { say: "insert", path, text });
     }
     this.#note(path, text);
   }
 
-  #note(path: string, text: string | null): void {
+  #note(path: string, text: Contents | null): void {
     this.#texts.note(path, text);
     this.#programs.insert(path, text);
   }
@@ -113,9 +114,11 @@ export class TabHost implements Ways {
   /** Takes a message of the program of the page, or of one beside it. */
   #receive(from: Worker | Aside, message: FromWorker): void {
     switch (message.say) {
-      case "loading":
-        this.status.set(`Loading the simulator: ${share(message.done, message.all)} of ${megabytes(message.all)}`);
+      case "loading": {
+        const part = Math.min(100, Math.round((100 * message.done) / message.all));
+        this.status.set(`Loading the simulator: ${part} % of ${(message.all / 1e6).toFixed(1)} MB`);
         break;
+      }
       case "ready":
         if (from !== this.#worker) {
           break;
@@ -178,12 +181,4 @@ export class TabHost implements Ways {
 
 function post(worker: Worker, message: ToWorker): void {
   worker.postMessage(message);
-}
-
-function share(done: number, all: number): string {
-  return `${Math.min(100, Math.round((100 * done) / all))} %`;
-}
-
-function megabytes(bytes: number): string {
-  return `${(bytes / 1e6).toFixed(1)} MB`;
 }

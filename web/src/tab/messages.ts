@@ -1,6 +1,6 @@
 // What a page and the worker with its program say to each other.
 
-import type { KeptFiles } from "./files";
+import type { Contents, KeptFiles } from "./files";
 
 /** Where the program is: an address, or its bytes, compressed by gzip; or what another worker has compiled. */
 export type Source = { address: string; bytes: number } | { packed: ArrayBuffer } | { module: WebAssembly.Module };
@@ -25,8 +25,8 @@ export type ToWorker =
   | { say: "greet" }
   /** In so many milliseconds others help to simulate. */
   | { say: "gather"; after: number }
-  /** A file that was written elsewhere, or deleted if it has no text. */
-  | { say: "insert"; path: string; text: string | null }
+  /** A file that was written elsewhere, or deleted if it has no contents. */
+  | { say: "insert"; path: string; text: Contents | null }
   | ({ say: "template" } & LiveParts)
   | { say: "drawn" }
   /** To a worker that only does parts of simulations for another. */
@@ -40,7 +40,7 @@ export type FromWorker =
   | { say: "language"; text: string }
   | { say: "template" }
   /** A file was saved here, or by another tab, which may have deleted it. */
-  | { say: "wrote"; path: string; text: string | null }
+  | { say: "wrote"; path: string; text: Contents | null }
   | { say: "kept"; path: string; isKept: boolean }
   /** An assistant is ready, or has done a part. */
   | { say: "assisting" }

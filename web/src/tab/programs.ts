@@ -3,6 +3,7 @@
 
 import type { Request, ServerMessage } from "../protocol";
 import { Aside } from "./aside";
+import type { Contents } from "./files";
 import type { FromWorker } from "./messages";
 
 type Verb = Request["do"];
@@ -86,7 +87,7 @@ export class Programs {
     this.#next.begin();
   }
 
-  insert(path: string, text: string | null): void {
+  insert(path: string, text: Contents | null): void {
     this.#all().forEach(aside => aside.insert(path, text));
   }
 

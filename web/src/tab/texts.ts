@@ -1,9 +1,9 @@
 // The files that all programs of the page have, and those of them that the browser could not keep.
 
-import type { KeptFiles } from "./files";
+import type { Contents, KeptFiles } from "./files";
 
 export class Texts {
-  readonly #texts = new Map<string, string>();
+  readonly #texts = new Map<string, Contents>();
   readonly #unkept = new Set<string>();
 
   get all(): KeptFiles {
@@ -11,7 +11,7 @@ export class Texts {
   }
 
   /** Without a text, the file is gone. */
-  note(path: string, text: string | null): void {
+  note(path: string, text: Contents | null): void {
     if (text === null) {
       this.#texts.delete(path);
     } else {

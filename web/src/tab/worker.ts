@@ -3,7 +3,7 @@
 
 import { Crew } from "./crew";
 import { Engine } from "./engine";
-import { FileStore } from "./files";
+import { FileStore, type Contents } from "./files";
 import type { FromWorker, LiveParts, Source, ToWorker } from "./messages";
 
 const pause = new MessageChannel();
@@ -21,12 +21,9 @@ pause.port1.onmessage = () => {
   work();
 };
 onmessage = ({ data }: MessageEvent<ToWorker>) => {
-  if (data.say === "begin") {
-    begin(data).catch((error: unknown) => fail(String(error)));
-    return;
-  }
-  if (data.say === "assist") {
-    assist(data.module).catch((error: unknown) => fail(String(error)));
+  if (data.say === "begin" || data.say === "assist") {
+    const starting = data.say === "begin" ? begin(data) : assist(data.module);
+    starting.catch((error: unknown) => fail(String(error)));
     return;
   }
   const started = engine;
@@ -145,7 +142,7 @@ async function template(engine: Engine, { page, program }: LiveParts): Promise<v
   say({ say: "template" });
 }
 
-function keep(path: string, text: string | null): void {
+function keep(path: string, text: Contents | null): void {
   if (text === null) {
     store?.remove(path);
     return;

@@ -1,8 +1,8 @@
-// Zip archives of text files. What is read may be broken or hostile.
+// Zip archives. What is read may be broken or hostile.
 
 import { strFromU8, strToU8, unzipSync, zipSync } from "fflate";
 
-import type { KeptFiles } from "./files";
+import type { Contents, KeptFiles } from "./files";
 
 export class ZipError extends Error {}
 
@@ -17,18 +17,12 @@ export const INVISIBLE = /[\p{C}\p{Zl}\p{Zp}]/u;
 const DATE = new Date(1980, 0, 1);
 
 export function zip(files: KeptFiles): Uint8Array {
-  const all = files.map(([path, text]) => [path, strToU8(text)] as const);
+  const all = files.map(([path, file]) => [path, typeof file === "string" ? strToU8(file) : file] as const);
   return zipSync(Object.fromEntries(all), { mtime: DATE, level: 9 });
 }
 
-/** What an archive has: its text files, and the paths of what is no text. */
-export interface Unzipped {
-  files: KeptFiles;
-  leftOut: string[];
-}
-
 /** Reads an archive. What a system hides, such as `.git`, is passed over. */
-export function unzip(bytes: Uint8Array): Unzipped {
+export function unzip(bytes: Uint8Array): KeptFiles {
   if (bytes.length > MOST_ARCHIVE) {
     throw new ZipError("the archive is larger than 20 MB");
   }
@@ -55,16 +49,7 @@ export function unzip(bytes: Uint8Array): Unzipped {
     paths.set(name, path);
     return true;
   });
-  const read: Unzipped = { files: [], leftOut: [] };
-  for (const [name, path] of paths) {
-    const text = decoded(unpacked[name] ?? new Uint8Array());
-    if (text === null) {
-      read.leftOut.push(path);
-    } else {
-      read.files.push([path, text]);
-    }
-  }
-  return read;
+  return [...paths].map(([name, path]) => [path, contentsOf(unpacked[name] ?? new Uint8Array())]);
 }
 
 /** The contents of the wanted files, each of the size that the archive says. */
@@ -99,7 +84,7 @@ function pathOf(name: string): string | null {
   return parts.join("/");
 }
 
-export function decoded(bytes: Uint8Array): string | null {
+export function contentsOf(bytes: Uint8Array): Contents {
   const text = strFromU8(bytes);
-  return text.includes("\ufffd") ? null : text;
+  return text.includes("\ufffd") ? bytes.slice() : text;
 }

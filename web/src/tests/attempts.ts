@@ -6,13 +6,15 @@ import { Observable } from "../observable";
 import { RequestError } from "../request";
 
 export type Attempt<Done> =
-  | { state: "running"; done: number; all: number; work: AbortController }
+  | ({ state: "running"; done: number; all: number; work: AbortController } & Partial<Done>)
   | ({ state: "done" } & Done)
-  | { state: "failed"; message: string };
+  | ({ state: "failed"; message: string } & Partial<Done>);
 
-export interface Sending {
+export interface Sending<Done> {
   signal: AbortSignal;
   progress: (done: number, all: number) => void;
+  /** Takes what is known before the end; it stays when the work is stopped. */
+  know: (known: Done) => void;
 }
 
 interface Declared {
@@ -34,7 +36,7 @@ export class Attempts<Done> {
     this.states.set(new Map());
   }
 
-  async run(index: number, ask: (sending: Sending) => Promise<Done>): Promise<void> {
+  async run(index: number, ask: (sending: Sending<Done>) => Promise<Done>): Promise<void> {
     const work = new AbortController();
     const states = this.states.value;
     const set = (state: Attempt<Done>): void => {
@@ -44,13 +46,15 @@ export class Attempts<Done> {
         this.states.notify();
       }
     };
-    const progress = (done: number, all: number): void => set({ state: "running", done, all, work });
+    let known: Partial<Done> = {};
+    const know = (now: Done): unknown => (known = now);
+    const progress = (done: number, all: number): void => set({ state: "running", done, all, work, ...known });
     progress(0, 0);
     try {
-      set({ state: "done", ...(await ask({ signal: work.signal, progress })) });
+      set({ state: "done", ...(await ask({ signal: work.signal, progress, know })) });
     } catch (error) {
       if (error instanceof RequestError) {
-        set({ state: "failed", message: error.code === CANCELLED ? "stopped" : error.words });
+        set({ state: "failed", message: error.code === CANCELLED ? "stopped" : error.words, ...known });
       }
     }
   }

@@ -8,7 +8,7 @@ import type { TestEntry, Level, TestVerdict } from "../protocol";
 import { RequestError } from "../request";
 import { type Attempt, attemptBar, Attempts, placeOf } from "./attempts";
 import { ClaimCards } from "./claims";
-import { verdictTable } from "./verdict";
+import { shareOf, verdictTable } from "./verdict";
 
 interface Tested {
   level: Level;
@@ -83,10 +83,10 @@ export class TestsPanel {
       return;
     }
     const fields = { path: this.program.path.value, test: index, level };
-    await this.#attempts.run(index, async sending => ({
-      level,
-      ...(await this.connection.request("test", fields, sending)),
-    }));
+    await this.#attempts.run(index, async ({ know, ...sending }) => {
+      const found = (results: TestVerdict[]): void => know({ level, results });
+      return { level, ...(await this.connection.request("test", fields, { ...sending, found })) };
+    });
   }
 
   async #watchDeclared(test: TestEntry): Promise<void> {
@@ -186,23 +186,14 @@ export class TestsPanel {
       return attemptBar(state);
     }
     const passed = state.results.every(verdict => verdict.passed);
-    const proof = state.results[0]?.proof;
-    if (proof !== undefined) {
-      return element("span", { class: `verdict ${passed ? "pass" : "fail"}` }, `${passed ? "✓" : "✗"} ${proof}`);
-    }
     const level = state.level === "physics" ? "in physics" : "as logic";
-    return element(
-      "span",
-      { class: `verdict ${passed ? "pass" : "fail"}` },
-      passed ? `✓ passes ${level}` : `✗ fails ${level}`,
-    );
+    const words =
+      state.results[0]?.proof ?? `${passed ? "passes" : "fails"} ${[level, ...shareOf(state.results)].join(": ")}`;
+    return element("span", { class: `verdict ${passed ? "pass" : "fail"}` }, `${passed ? "✓" : "✗"} ${words}`);
   }
 
   #tables(test: TestEntry, state: TestState | undefined): HTMLElement[] {
-    if (state?.state !== "done") {
-      return [];
-    }
-    const withRows = state.results.filter(verdict => verdict.proof === undefined || verdict.rows.length > 0);
+    const withRows = (state?.results ?? []).filter(verdict => verdict.proof === undefined || verdict.rows.length > 0);
     return withRows.map(verdict =>
       verdictTable(verdict, {
         line: line => this.reveal(line),

@@ -5,6 +5,7 @@ import { button, element } from "../element";
 import type { RowVerdict, TestVerdict } from "../protocol";
 
 export interface Leads {
+  /** Shows a row, or the test if a file has its rows. */
   line: (line: number) => void;
   /** Shows the row in the run; null if there was no run in physics. */
   moment: ((row: number) => void) | null;
@@ -31,7 +32,7 @@ export function verdictTable(verdict: TestVerdict, leads: Leads): HTMLElement {
       "table",
       { class: "rows" },
       head(verdict),
-      element("tbody", {}, ...rows.map(row => tableRow(row, leads, hasThreads(verdict)))),
+      element("tbody", {}, ...rows.map(row => tableRow(row, leads, verdict))),
     ),
     left > 0 && element("p", { class: "dim" }, counted(left, "more row")),
     verdict.printed !== undefined &&
@@ -64,7 +65,10 @@ function hasThreads(verdict: TestVerdict): boolean {
   return verdict.rows.some(row => row.thread !== undefined);
 }
 
-function tableRow(row: RowVerdict, leads: Leads, threaded: boolean): HTMLElement {
+function tableRow(row: RowVerdict, leads: Leads, verdict: TestVerdict): HTMLElement {
+  const from = verdict.rows_from;
+  const place = from === undefined ? `line ${row.line}` : `line ${row.line} of ${from.file.split("/").at(-1)}`;
+  const line = from === undefined ? row.line : verdict.line;
   const cells = (values: { text: string }[]): HTMLElement[] =>
     values.map((value, i) => element("td", { class: i === 0 ? "first" : "" }, value.text));
   return element(
@@ -73,14 +77,23 @@ function tableRow(row: RowVerdict, leads: Leads, threaded: boolean): HTMLElement
     ...cells(row.inputs),
     ...cells(row.expected),
     ...cells(row.observed),
-    threaded && element("td", { class: "thread" }, row.thread === undefined ? "" : `thread ${row.thread + 1}`),
+    hasThreads(verdict) &&
+      element("td", { class: "thread" }, row.thread === undefined ? "" : `thread ${row.thread + 1}`),
     element("td", { class: row.passed ? "pass" : "fail" }, row.passed ? "✓ pass" : "✗ fail"),
     element(
       "td",
       { class: "leads" },
-      button(`line ${row.line}`, () => leads.line(row.line), { class: "link", "data-do": "line" }),
+      button(place, () => leads.line(line), { class: "link", "data-do": "line" }),
       leads.moment !== null &&
         button("show the moment", () => leads.moment?.(row.row), { class: "link", "data-do": "moment" }),
     ),
   );
+}
+
+/** How many rows of a file passed, and how many should, as `343 of 360, at least 93 %`. */
+export function shareOf(results: TestVerdict[]): string[] {
+  return results.flatMap(({ rows, rows_from: from }) => {
+    const passed = rows.filter(row => row.passed).length;
+    return from?.at_least === undefined ? [] : [`${passed} of ${rows.length}, at least ${from.at_least} %`];
+  });
 }

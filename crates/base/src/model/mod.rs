@@ -70,7 +70,7 @@ pub use trial::{Fault, Setting, Trajectory, Trial};
 pub use value::{Base, Value};
 pub use variation::Variation;
 pub use wording::{BodyError, FaultKind, GroundFileError, ImageFileError, SettingError};
-pub use world::{NamedWorld, PhysicsWorld, WorldFactors, WorldNoise};
+pub use world::{Hears, NamedWorld, PhysicsWorld, WorldFactors, WorldNoise};
 
 /// Env steps in one actuation cycle of the paper (docs/physics.md 10).
 pub const CYCLE_STEPS: u32 = 84;

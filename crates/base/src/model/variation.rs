@@ -18,14 +18,29 @@ pub struct Variation {
     amounts: [f64; COUNT],
 }
 
-const COUNT: usize = 10;
+const COUNT: usize = 12;
 
 /// The number of these that are factors; the others are noise.
 const FACTORS: usize = 6;
 
 impl Variation {
-    pub const NAMES: [&str; COUNT] =
-        ["friction", "gravity", "stiffness", "drag", "damping", "swelling", "start", "missed", "weak", "dead"];
+    pub const NAMES: [&str; COUNT] = [
+        "friction",
+        "gravity",
+        "stiffness",
+        "drag",
+        "damping",
+        "swelling",
+        "start",
+        "missed",
+        "weak",
+        "dead",
+        "phase",
+        "drift",
+    ];
+
+    /// The word for no change but that of the seed, from which noise is drawn.
+    pub const SEED: &str = "seed";
 
     /// The word for all factors.
     pub const ALL: &str = "all";
@@ -36,7 +51,8 @@ impl Variation {
     pub fn most(name: &str) -> f64 {
         match name {
             "start" => WorldNoise::MOST_START,
-            "missed" | "weak" | "dead" => 1.0,
+            "missed" | "weak" | "dead" | "phase" => 1.0,
+            "drift" => WorldNoise::MOST_DRIFT,
             _ => 0.9,
         }
     }
@@ -102,7 +118,7 @@ impl Variation {
         for (i, (change, draw)) in changes.iter_mut().zip(draws).enumerate() {
             *change *= if i < FACTORS { draw } else { draw.abs() };
         }
-        let [friction, gravity, stiffness, drag, damping, swelling, start, missed, weak, dead] = changes;
+        let [friction, gravity, stiffness, drag, damping, swelling, start, missed, weak, dead, phase, drift] = changes;
         let [least, most] = [*WorldFactors::RANGE.start(), *WorldFactors::RANGE.end()];
         let factor = |own: f64, change: f64| (own * (1.0 + change)).clamp(least, most);
         let (own, noise) = (around.factors, around.noise);
@@ -120,9 +136,11 @@ impl Variation {
                 missed: (noise.missed + missed).min(1.0),
                 weak: (noise.weak + weak).min(1.0),
                 dead: (noise.dead + dead).min(1.0),
+                phase: (noise.phase + phase).min(1.0),
+                drift: (noise.drift + drift).min(WorldNoise::MOST_DRIFT),
                 seed,
             },
-            ground: around.ground,
+            ..*around
         }
     }
 }
@@ -152,9 +170,12 @@ impl TryFrom<BTreeMap<String, f64>> for Variation {
 impl FromStr for Variation {
     type Err = String;
 
-    /// Reads `friction=10%,start=0.2`. All factors are `all=10%`, or `10%` by itself.
+    /// Reads `friction=10%,start=0.2`. All factors are `all=10%`, or `10%` by itself; `seed` is no change.
     fn from_str(text: &str) -> Result<Self, String> {
         let mut amounts = [0.0; COUNT];
+        if text == Self::SEED {
+            return Ok(Self::default());
+        }
         if text.ends_with('%') && !text.contains('=') {
             return format!("{}={text}", Self::ALL).parse();
         }
@@ -183,7 +204,7 @@ impl fmt::Display for Variation {
     /// The quantities that vary: `friction 10 %, start 0.2`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let words = self.words(" ", " %");
-        if words.is_empty() { f.write_str("nothing") } else { f.write_str(&words.join(", ")) }
+        if words.is_empty() { f.write_str(Self::SEED) } else { f.write_str(&words.join(", ")) }
     }
 }
 
@@ -199,7 +220,7 @@ mod tests {
     #[test]
     fn variations_are_read_and_shown() {
         let found: Variation = "friction=10%,start=0.2".parse().unwrap();
-        assert_eq!(found.amounts, [0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.2, 0.0, 0.0, 0.0]);
+        assert_eq!(found.amounts[..7], [0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.2]);
         assert_eq!(found.to_string(), "friction 10 %, start 0.2");
         assert_eq!(found.changes(), "friction=10%,start=0.2");
         assert_eq!(found.times(3.0).to_string(), "friction 30 %, start 0.6");

@@ -13,6 +13,29 @@ pub struct PhysicsWorld {
     pub noise: WorldNoise,
     #[serde(default, skip_serializing_if = "GroundProfile::is_flat")]
     pub ground: GroundProfile,
+    #[serde(default, skip_serializing_if = "Hears::is_usual")]
+    pub hears: Hears,
+}
+
+/// When the output of a robot is read: its motion over its last cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Hears {
+    /// At the end of each of its cycles.
+    #[default]
+    Cycle,
+    /// At the end of every env step. A motion of less than [`Hears::DEAD_ZONE`] leaves the output as it was.
+    Always,
+}
+
+impl Hears {
+    /// In voxels.
+    pub const DEAD_ZONE: f64 = 0.02;
+
+    fn is_usual(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// The numbers of the physics as factors of the paper's, so 1 is the paper's world (docs/physics.md 15).
@@ -46,7 +69,18 @@ pub struct WorldNoise {
     pub weak: f64,
     /// The probability that an actuator or sensor never moves.
     pub dead: f64,
+    /// The largest share of a cycle by which the cycles of a robot are ahead.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub phase: f64,
+    /// The largest share by which the cycles of a robot are shorter or longer.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub drift: f64,
     pub seed: u64,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_zero(amount: &f64) -> bool {
+    *amount == 0.0
 }
 
 impl Default for WorldFactors {
@@ -62,6 +96,13 @@ impl WorldFactors {
 impl WorldNoise {
     /// The most that `start` may be, in voxels.
     pub const MOST_START: f64 = 10.0;
+
+    pub const MOST_DRIFT: f64 = 0.1;
+
+    /// Whether the cycles of the robots begin at different times.
+    pub fn has_own_clocks(&self) -> bool {
+        self.phase > 0.0 || self.drift > 0.0
+    }
 }
 
 impl PhysicsWorld {
@@ -69,13 +110,24 @@ impl PhysicsWorld {
         *self == Self::default()
     }
 
+    /// Cycles by which a robot may answer later than its clock, where its stimuli change within its cycles
+    /// (docs/own-clocks.md).
+    pub fn lateness(&self) -> u32 {
+        match self.hears {
+            Hears::Always => 1,
+            Hears::Cycle if self.noise.has_own_clocks() => 2,
+            Hears::Cycle => 0,
+        }
+    }
+
     pub fn is_possible(&self) -> bool {
         let WorldFactors { friction, gravity, stiffness, drag, damping, swelling } = self.factors;
         let factors = [friction, gravity, stiffness, drag, damping, swelling];
-        let WorldNoise { start, missed, weak, dead, .. } = self.noise;
+        let WorldNoise { start, missed, weak, dead, phase, drift, .. } = self.noise;
         factors.iter().all(|factor| WorldFactors::RANGE.contains(factor))
-            && [missed, weak, dead].iter().all(|share| (0.0..=1.0).contains(share))
+            && [missed, weak, dead, phase].iter().all(|share| (0.0..=1.0).contains(share))
             && (0.0..=WorldNoise::MOST_START).contains(&start)
+            && (0.0..=WorldNoise::MOST_DRIFT).contains(&drift)
     }
 }
 

@@ -14,3 +14,10 @@ pub enum FileError {
     },
     Io(String),
 }
+
+impl FileError {
+    /// The text of a file with these bytes.
+    pub fn text(bytes: Vec<u8>) -> Result<String, Self> {
+        String::from_utf8(bytes).map_err(|error| Self::NotText { offset: error.utf8_error().valid_up_to() })
+    }
+}

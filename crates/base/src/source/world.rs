@@ -87,12 +87,12 @@ forward!(Box);
 /// Files in memory, for tests and for programs that generate source text.
 #[derive(Clone, Debug, Default)]
 pub struct MemoryWorld {
-    files: BTreeMap<String, String>,
+    files: BTreeMap<String, Vec<u8>>,
 }
 
 impl MemoryWorld {
-    pub fn insert(&mut self, path: impl Into<String>, text: impl Into<String>) {
-        self.files.insert(path.into(), text.into());
+    pub fn insert(&mut self, path: impl Into<String>, contents: impl Into<Vec<u8>>) {
+        self.files.insert(path.into(), contents.into());
     }
 
     pub fn remove(&mut self, path: &str) {
@@ -102,6 +102,10 @@ impl MemoryWorld {
 
 impl SourceWorld for MemoryWorld {
     fn read(&self, path: &str) -> Result<String, FileError> {
+        FileError::text(self.read_bytes(path)?)
+    }
+
+    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
         self.files.get(path).cloned().ok_or(FileError::NotFound)
     }
 
@@ -128,7 +132,7 @@ impl<W: SourceWorld> OverlayWorld<W> {
     }
 
     pub fn insert(&mut self, path: &str, text: impl Into<String>) {
-        self.over.insert(self.under.identity(path), text);
+        self.over.insert(self.under.identity(path), text.into());
     }
 
     pub fn remove(&mut self, path: &str) {

@@ -4,12 +4,13 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use crate::and_graph::{AndGraph, AndLiteral};
-use crate::formats::design::{Design, Register};
+use crate::formats::design::Design;
 use crate::formats::names::{FileNames, free};
 use crate::formats::wording::aiger as wording;
 use crate::formats::wording::aiger::{AigerPlace, BadLiteral};
+use crate::formats::{Forcing, RegisterKind};
 use crate::network::View;
-use crate::{NetId, Netlist};
+use crate::{NetId, Netlist, RegisterNode};
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::Function;
@@ -143,8 +144,13 @@ impl<'b> AigerReader<'b> {
             return Err(wording::property(what, number, self.place));
         }
         let graph = self.graph(&header)?;
-        let mut design = build(&header, &graph, clock)?;
+        let mut design = Design::new(build(&header, &graph)?);
         self.symbols(&mut design)?;
+        // The clock may be an input that is a port, too.
+        let registers: Vec<NetId> = design.netlist.registers().map(|(id, _)| id).collect();
+        let clock = registers.first().map(|_| design.clock(clock.unwrap_or(Design::CLOCK)));
+        let clocked = registers.into_iter().zip(clock.into_iter().cycle());
+        clocked.for_each(|(id, clock)| design.netlist.connect(id, RegisterNode::CLOCK, clock));
         Ok(design)
     }
 
@@ -226,68 +232,67 @@ impl<'b> AigerReader<'b> {
     }
 
     fn symbols(&mut self, design: &mut Design) -> Result<(), Diagnostic> {
-        let (inputs, outputs) = (design.inputs(), design.outputs());
+        let netlist = &mut design.netlist;
+        let registers: Vec<NetId> = netlist.registers().map(|(id, _)| id).collect();
         while let Some((kind, number, name)) = self.symbol()? {
             let known = match kind {
-                "i" if number < inputs => Some(design.logic.inputs()[number]),
-                "o" if number < outputs => Some(design.logic.outputs()[number]),
-                "l" if number < design.registers.len() => {
-                    design.registers[number].name = name.to_owned();
-                    Some(design.logic.inputs()[inputs + number])
-                }
+                "i" => netlist.inputs().get(number),
+                "o" => netlist.outputs().get(number),
+                "l" => registers.get(number),
                 _ => None,
             };
-            let Some(id) = known else {
+            let Some(&id) = known else {
                 return Err(wording::unknown_symbol(&format!("{kind}{number} {name}"), self.place));
             };
-            design.logic.rename(id, name);
+            netlist.rename(id, name);
         }
         // Registers are known by their names.
         let mut taken = BTreeSet::new();
-        for (at, register) in design.registers.iter_mut().enumerate() {
-            let name = free(&mut taken, register.name.clone());
-            if name != register.name {
-                design.logic.rename(design.logic.inputs()[inputs + at], &name);
-                register.name = name;
-            }
+        for id in registers {
+            let name = free(&mut taken, netlist.net_name(id));
+            netlist.rename(id, &name);
         }
         Ok(())
     }
 }
 
-fn build(header: &AigerHeader, graph: &AigerGraph, clock: Option<&str>) -> Result<Design, Diagnostic> {
+/// Its registers have no clock yet.
+fn build(header: &AigerHeader, graph: &AigerGraph) -> Result<Netlist, Diagnostic> {
     let AigerGraph { inputs, latches, outputs, ands, .. } = graph;
     let mut logic = Netlist::new("circuit");
     let mut nets: Vec<Option<NetId>> = vec![None; header.variables + 1];
-    let ports = inputs.iter().enumerate().map(|(i, &placed)| (format!("i{i}"), placed));
-    let states = latches.iter().enumerate().map(|(i, latch)| (format!("l{i}"), (latch.literal, latch.place)));
-    for (name, (literal, place)) in ports.chain(states) {
-        match nets.get_mut(literal / 2).filter(|net| literal > 1 && literal & 1 == 0 && net.is_none()) {
-            Some(net) => *net = Some(logic.add_input(name)),
-            None => return Err(wording::literal(BadLiteral::NotAnInput, literal, place)),
-        }
+    let mut source = |id: NetId, (literal, place): Placed| {
+        let net = nets.get_mut(literal / 2).filter(|net| literal > 1 && literal & 1 == 0 && net.is_none());
+        let net = net.ok_or_else(|| wording::literal(BadLiteral::NotAnInput, literal, place))?;
+        *net = Some(id);
+        Ok(())
+    };
+    for (i, &placed) in inputs.iter().enumerate() {
+        source(logic.add_input(format!("i{i}")), placed)?;
+    }
+    let mut registers = Vec::with_capacity(latches.len());
+    for (i, &AigerLatch { literal, start, place, .. }) in latches.iter().enumerate() {
+        let (kind, forcing, name) = (RegisterKind::Rising, Forcing::Never, Some(format!("l{i}")));
+        let id = logic.add_loose_register(RegisterNode { kind, forcing, start, name, span: None });
+        source(id, (literal, place))?;
+        registers.push(id);
     }
     let mut literals = Literals { inverted: vec![None; header.variables + 1], constants: [None; 2], nets };
     let sources: Vec<bool> = literals.nets.iter().map(Option::is_some).collect();
     for And { out, pins, .. } in sorted(ands, &sources)? {
         literals.and(&mut logic, out, pins);
     }
-    let shown = outputs.iter().enumerate().map(|(i, &placed)| (format!("o{i}"), placed));
-    let nexts = latches.iter().enumerate().map(|(i, latch)| (format!("l{i}_next"), (latch.next, latch.place)));
+    let undriven = |literal, place| wording::literal(BadLiteral::Undriven, literal, place);
     let mut driven = Vec::new();
-    for (name, (literal, place)) in shown.chain(nexts) {
-        let net = literals.net(&mut logic, literal);
-        driven.push((name, net.ok_or_else(|| wording::literal(BadLiteral::Undriven, literal, place))?));
+    for &(literal, place) in outputs {
+        driven.push(literals.net(&mut logic, literal).ok_or_else(|| undriven(literal, place))?);
     }
-    for (name, net) in driven {
-        logic.add_output(name, net);
+    for (id, &AigerLatch { next, place, .. }) in registers.into_iter().zip(latches) {
+        let net = literals.net(&mut logic, next).ok_or_else(|| undriven(next, place))?;
+        logic.connect(id, RegisterNode::DATA, net);
     }
-    let register = |(i, latch): (usize, &AigerLatch)| Register {
-        start: latch.start,
-        ..Register::flip_flop(format!("l{i}"), clock.unwrap_or(Register::CLOCK))
-    };
-    let registers = latches.iter().enumerate().map(register).collect();
-    Ok(Design::new(logic, registers))
+    driven.into_iter().enumerate().for_each(|(i, net)| _ = logic.add_output(format!("o{i}"), net));
+    Ok(logic)
 }
 
 /// The gates with drivers first; `sources` says which variables are inputs and latches.
@@ -378,17 +383,23 @@ impl Literals {
 /// # Panics
 /// When the logic of the design has loops; a design that was read has none.
 pub fn write(design: &Design, binary: bool) -> Vec<u8> {
-    let view = View::of(&design.logic, &[]).expect("the logic of a design has no loops");
-    let mut graph = AndGraph::new(view.network.inputs);
-    let sources: Vec<AndLiteral> = (0..view.network.inputs).map(|at| graph.source(at)).collect();
+    let registers: Vec<NetId> = design.netlist.registers().map(|(id, _)| id).collect();
+    let view = View::of(&design.netlist, &registers).expect("the logic of a design has no loops");
+    let ports = design.ports().len();
+    let mut graph = AndGraph::new(ports + registers.len());
+    // The clock has no literal.
+    let clocks = design.own_clocks().iter().map(|_| 0);
+    let mut sources: Vec<AndLiteral> = (0..ports).map(|at| graph.source(at)).chain(clocks).collect();
+    sources.extend((0..registers.len()).map(|at| graph.source(ports + at)));
     let outputs = graph.outputs(&view.network, &sources);
     text(&graph, design, &outputs, binary)
 }
 
-/// The file of a graph whose outputs are those of the design and then the next values of its registers.
+/// The file of a graph whose outputs are those of the design and then the data and clocks of its registers.
 fn text(graph: &AndGraph, design: &Design, outputs: &[AndLiteral], binary: bool) -> Vec<u8> {
-    let (ports, latches) = (design.inputs(), design.registers.len());
-    let (shown, nexts) = outputs.split_at(design.outputs());
+    let registers: Vec<(NetId, &RegisterNode)> = design.netlist.registers().collect();
+    let (ports, latches) = (design.ports().len(), registers.len());
+    let (shown, pins) = outputs.split_at(design.netlist.outputs().len());
     let word = if binary { "aig" } else { "aag" };
     let total = graph.signals();
     let mut text = format!("{word} {total} {ports} {latches} {} {}\n", shown.len(), graph.ands.items.len());
@@ -396,8 +407,8 @@ fn text(graph: &AndGraph, design: &Design, outputs: &[AndLiteral], binary: bool)
     if !binary {
         (0..ports).for_each(|i| text.push_str(&format!("{}\n", own(i))));
     }
-    for (i, (register, next)) in design.registers.iter().zip(nexts).enumerate() {
-        let latch = own(ports + i);
+    for (i, ((_, register), pins)) in registers.iter().zip(pins.chunks(2)).enumerate() {
+        let (latch, next) = (own(ports + i), pins[0]);
         let start = register.start.map_or(latch, usize::from);
         let _ = if binary { writeln!(text, "{next} {start}") } else { writeln!(text, "{latch} {next} {start}") };
     }
@@ -414,14 +425,14 @@ fn text(graph: &AndGraph, design: &Design, outputs: &[AndLiteral], binary: bool)
     }
     let readable = |name: &str| name.chars().map(|c| if c.is_control() { '_' } else { c }).collect::<String>();
     let legal = |name: &str| if name.is_empty() { "_".to_owned() } else { readable(name) };
-    let names = FileNames::new(&design.logic, &design.registers, &[], true, legal);
+    let names = FileNames::new(design, &[], true, legal);
     let label = |kind: &str, ids: &[NetId]| {
         ids.iter().enumerate().map(|(i, &id)| format!("{kind}{i} {}\n", names.net(id))).collect::<String>()
     };
-    let (inputs, states) = design.logic.inputs().split_at(ports);
-    bytes.extend(label("i", inputs).bytes());
-    bytes.extend(label("l", states).bytes());
-    bytes.extend(label("o", &design.logic.outputs()[..shown.len()]).bytes());
+    let registers: Vec<NetId> = registers.into_iter().map(|(id, _)| id).collect();
+    bytes.extend(label("i", design.ports()).bytes());
+    bytes.extend(label("l", &registers).bytes());
+    bytes.extend(label("o", design.netlist.outputs()).bytes());
     bytes
 }
 

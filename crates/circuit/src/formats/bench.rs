@@ -1,9 +1,10 @@
 //! The .bench format of the ISCAS benchmarks: `G5 = NAND(G1, G3)`. Its flip-flops have one clock for all, which has no
 //! name.
 
-use crate::formats::design::{Design, Register};
+use crate::formats::design::Design;
 use crate::formats::draft::{Definition, Draft, DraftRegister};
 use crate::formats::wording::{bench as wording, text};
+use crate::formats::{Forcing, RegisterKind};
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::Function;
@@ -52,12 +53,9 @@ fn statement(draft: &mut Draft, line: &str, span: Span, clock: Option<&str>) {
         (None, "INPUT", &[net]) => draft.inputs.push((net, span)),
         (None, "OUTPUT", &[net]) => draft.outputs.push((net, span)),
         (Some(target), "DFF", &[next]) => {
-            let output = draft.name(target);
-            let register = Register {
-                start: Some(false),
-                ..Register::flip_flop(target.to_owned(), clock.unwrap_or(Register::CLOCK))
-            };
-            draft.registers.push(DraftRegister { register, output, next, forcing: Vec::new(), span });
+            let (output, clock) = (draft.name(target), draft.name(clock.unwrap_or(Design::CLOCK)));
+            let (kind, forcing, start, nets) = (RegisterKind::Rising, Forcing::Never, Some(false), Vec::new());
+            draft.registers.push(DraftRegister { kind, forcing, start, output, next, clock, nets, span });
         }
         (Some(target), word, pins) => match gate(word, pins.len()) {
             Some((function, inverted)) => {

@@ -6,7 +6,7 @@ use crate::formats::blif_text::forced_cell;
 use crate::formats::draft::{Definition, Draft, DraftRegister, MOST_ERRORS, NetName};
 use crate::formats::model_gate::{ModelCover, gate};
 use crate::formats::wording::{blif as wording, text};
-use crate::formats::{Design, Forcing, Register, RegisterKind};
+use crate::formats::{Design, Forcing, RegisterKind};
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::Function;
@@ -374,33 +374,32 @@ impl<'m, 't> Flat<'m, 't> {
                     _ => return self.draft.fault(wording::latch_kind(kind, span)),
                 };
                 let number = self.net(clock, inside);
-                (kind, (*clock != "NIL").then(|| self.draft.text(number).to_owned()))
+                (kind, (*clock != "NIL").then_some(number))
             }
             _ => (RegisterKind::Rising, None),
         };
         let one_clock = match model.clocks[..] {
-            [(clock, _)] => Some(clock.to_owned()),
+            [(clock, _)] => Some(clock),
             _ => None,
         };
-        let clock = clock.or(one_clock).or_else(|| self.clock.map(str::to_owned));
-        let name = self.draft.text(output).to_owned();
-        if clock.is_none() {
+        let clock = clock.or_else(|| one_clock.or(self.clock).map(|clock| self.draft.name(clock)));
+        let clock = clock.unwrap_or_else(|| {
+            let name = self.draft.text(output).to_owned();
             self.draft.fault(wording::no_clock(&name, words[0].0, span));
-        }
-        let register = Register { name, kind, clock, start, forcing: Forcing::Never };
-        self.draft.registers.push(DraftRegister { register, output, next, forcing: Vec::new(), span });
+            output
+        });
+        let (forcing, nets) = (Forcing::Never, Vec::new());
+        self.draft.registers.push(DraftRegister { kind, forcing, start, output, next, clock, nets, span });
     }
 
     fn forced(&mut self, cell: &str, pins: &BTreeMap<&str, String>, start: Option<bool>, span: Span) -> bool {
         let Some(form) = forced_cell(cell) else { return false };
         let mut net = |port: &str| pins.get(port).map(|net| self.draft.name(net));
         let nets = (net("D"), net("Q"), form.ports.iter().map(|port| net(port)).collect::<Option<Vec<_>>>());
-        let (Some(next), Some(output), Some(forcing)) = nets else { return false };
-        let Some(clock) = pins.get(form.clock).cloned() else { return false };
-        let name = self.draft.text(output).to_owned();
-        let start = form.start.or(start);
-        let register = Register { name, kind: form.kind, clock: Some(clock), start, forcing: form.forcing };
-        self.draft.registers.push(DraftRegister { register, output, next, forcing, span });
+        let (Some(next), Some(output), Some(nets)) = nets else { return false };
+        let Some(clock) = net(form.clock) else { return false };
+        let (kind, forcing, start) = (form.kind, form.forcing, form.start.or(start));
+        self.draft.registers.push(DraftRegister { kind, forcing, start, output, next, clock, nets, span });
         true
     }
 

@@ -3,16 +3,16 @@
 
 use std::fmt::Write;
 
-use crate::formats::names::{ClockName, FileNames, cells_in_order, stand_ins, starts, visible};
-use crate::formats::{Design, Forcing, Register, RegisterKind};
-use crate::{NetId, Netlist, Node};
+use crate::formats::names::{FileNames, cells_in_order, stand_ins, starts, visible};
+use crate::formats::{Design, Forcing, RegisterKind};
+use crate::{NetId, Netlist, Node, RegisterNode};
 
 pub fn write(design: &Design) -> String {
-    let netlist = &design.logic;
+    let netlist = &design.netlist;
     let legal = |name: &str| visible(name, &['#', '\\', '=']);
-    let names = FileNames::new(netlist, &design.registers, &[constant(false), constant(true), "NIL"], true, legal);
+    let names = FileNames::new(design, &[constant(false), constant(true), "NIL"], true, legal);
     let starts = starts(netlist);
-    let mut stand_ins = stand_ins(design);
+    let mut stand_ins = stand_ins(netlist);
     // A memory element keeps its own name, by which it is compared.
     stand_ins.retain(|cell, output| !starts.contains_key(cell) || netlist.net_name(*cell) == netlist.net_name(*output));
     let name = |id: NetId| match netlist.node(id) {
@@ -21,23 +21,16 @@ pub fn write(design: &Design) -> String {
     };
     let list = |ids: &[NetId]| ids.iter().map(|id| format!(" {}", names.net(*id))).collect::<String>();
     let title = if netlist.name.is_empty() { "circuit".to_owned() } else { legal(&netlist.name) };
-    let (inputs, states) = netlist.inputs().split_at(design.inputs());
-    let (outputs, nexts) = netlist.outputs().split_at(design.outputs());
-    let mut text = format!(".model {title}\n.inputs{}\n.outputs{}\n", list(inputs), list(outputs));
-    for clock in names.own_clocks() {
-        let _ = writeln!(text, ".clock {clock}");
+    let outputs = netlist.outputs();
+    let mut text = format!(".model {title}\n.inputs{}\n.outputs{}\n", list(design.ports()), list(outputs));
+    for &clock in design.own_clocks() {
+        let _ = writeln!(text, ".clock {}", name(clock));
     }
-    for (((register, state), next), forcing) in
-        design.registers.iter().zip(states).zip(nexts).zip(design.forcing_nets())
-    {
+    for (id, register) in netlist.registers() {
+        let pins: Vec<&str> = netlist.pins(id).into_iter().map(name).collect();
+        let (next, clock) = (pins[0], pins[1]);
         if register.forcing != Forcing::Never {
-            let clock = match names.clock(register) {
-                Some(ClockName::Net(id)) => name(id),
-                Some(ClockName::Own(clock)) => clock,
-                None => Register::CLOCK,
-            };
-            let forcing: Vec<&str> = forcing.iter().map(|&net| name(net)).collect();
-            text.push_str(&cell_of(register, clock, [names.net(*next), name(*state)], &forcing));
+            text.push_str(&cell_of(register, clock, [next, name(id)], &pins[2..]));
             continue;
         }
         let kind = match register.kind {
@@ -46,13 +39,8 @@ pub fn write(design: &Design) -> String {
             RegisterKind::High => "ah",
             RegisterKind::Low => "al",
         };
-        let clock = match names.clock(register) {
-            Some(ClockName::Net(id)) => format!(" {kind} {}", name(id)),
-            Some(ClockName::Own(clock)) => format!(" {kind} {clock}"),
-            None => String::new(),
-        };
         let start = register.start.map_or(2, u8::from);
-        let _ = writeln!(text, ".latch {} {}{clock} {start}", names.net(*next), name(*state));
+        let _ = writeln!(text, ".latch {next} {} {kind} {clock} {start}", name(id));
     }
     for id in cells_in_order(netlist) {
         write_cell(&mut text, netlist, id, &name);
@@ -66,7 +54,7 @@ pub fn write(design: &Design) -> String {
             let _ = writeln!(text, ".names {}{}", constant(value), if value { "\n1" } else { "" });
         }
     }
-    for &output in outputs.iter().chain(&nexts[..states.len()]) {
+    for &output in outputs {
         let driver = netlist.pins(output)[0];
         // An output may be an input.
         if stand_ins.get(&driver) != Some(&output) && name(driver) != names.net(output) {
@@ -130,7 +118,7 @@ pub(super) fn forced_cell(cell: &str) -> Option<ForcedCell> {
 }
 
 /// The start value of a register with both a set and a reset is an attribute.
-pub(super) fn cell_of(register: &Register, clock: &str, [next, value]: [&str; 2], forcing: &[&str]) -> String {
+pub(super) fn cell_of(register: &RegisterNode, clock: &str, [next, value]: [&str; 2], forcing: &[&str]) -> String {
     let (family, edge, port) = match register.kind {
         RegisterKind::Rising => ("DFF", 'P', 'C'),
         RegisterKind::Falling => ("DFF", 'N', 'C'),

@@ -47,9 +47,8 @@ pub fn buses(names: &[String], ascending: &BTreeSet<String>) -> Vec<Bus> {
 
 /// The ports whose bits are not numbered from 0 at the right, as the language numbers them.
 pub fn renumbered(design: &Design) -> Vec<String> {
-    let logic = &design.logic;
-    let names = |ids: &[NetId]| ids.iter().map(|&id| logic.net_name(id)).collect::<Vec<_>>();
-    let ports = [names(&logic.inputs()[..design.inputs()]), names(&logic.outputs()[..design.outputs()])];
+    let names = |ids: &[NetId]| design.netlist.net_names(ids);
+    let ports = [names(design.ports()), names(design.netlist.outputs())];
     let of_ports = |names: &Vec<String>| {
         let is_other = |bus: &Bus| bit_number(&names[bus.bits[0]]).is_some_and(|(_, number)| number != 0);
         let found = buses(names, &design.ascending).into_iter().filter(|bus| bus.bits.len() > 1 && is_other(bus));

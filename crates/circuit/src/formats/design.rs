@@ -1,146 +1,91 @@
-//! Designs, the contents of an exchange file: a circuit and the registers of its state.
+//! Designs, the contents of an exchange file.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::register::{Forcing, RegisterKind};
-use crate::{Loops, NetId, Netlist, Node, RegisterNode};
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Register {
-    pub name: String,
-    pub kind: RegisterKind,
-    /// The net that clocks it; `None` if the format has one clock without a name.
-    pub clock: Option<String>,
-    pub start: Option<bool>,
-    pub forcing: Forcing,
-}
-impl Register {
-    /// The clock of registers for which a file names none.
-    pub const CLOCK: &str = "clk";
-
-    /// A register without a start value that takes its next value when the clock rises.
-    pub(crate) fn flip_flop(name: String, clock: &str) -> Self {
-        let (kind, clock, forcing) = (RegisterKind::Rising, Some(clock.to_owned()), Forcing::Never);
-        Self { name, kind, clock, start: None, forcing }
-    }
-
-    pub(crate) fn outputs(registers: &[Self]) -> usize {
-        registers.iter().map(|register| 1 + register.forcing.nets().len()).sum()
-    }
-
-    pub(crate) fn clock_name(&self) -> &str {
-        self.clock.as_deref().unwrap_or(Self::CLOCK)
-    }
-
-    /// 0 if the file does not say.
-    pub fn starts_at(&self) -> bool {
-        self.start.unwrap_or(false)
-    }
-}
+use crate::{NetId, Netlist, Node, RegisterNode};
 
 #[derive(Clone, Debug)]
 pub struct Design {
-    /// The logic: its inputs are the ports and then a register's value each, its outputs the ports, then a register's
-    /// next value each, and then the nets that force registers.
-    pub logic: Netlist,
-    pub registers: Vec<Register>,
+    /// Its registers are nodes, each with a name of its own.
+    pub netlist: Netlist,
+    /// The clocks that are not ports, such as that of AIGER, which has no name: the last inputs.
+    pub clocks: usize,
     /// The buses whose leftmost bit has the lowest number, such as `a` of `input [0:3] a` in Verilog.
     pub ascending: BTreeSet<String>,
 }
 
 impl Design {
-    pub fn new(logic: Netlist, registers: Vec<Register>) -> Self {
-        Self { logic, registers, ascending: BTreeSet::new() }
+    /// The clock of registers for which a file names none.
+    pub const CLOCK: &str = "clk";
+
+    pub fn new(netlist: Netlist) -> Self {
+        Self { netlist, clocks: 0, ascending: BTreeSet::new() }
     }
 
-    pub fn inputs(&self) -> usize {
-        self.logic.inputs().len() - self.registers.len()
+    pub fn ports(&self) -> &[NetId] {
+        let inputs = self.netlist.inputs();
+        &inputs[..inputs.len() - self.clocks]
     }
 
-    pub fn outputs(&self) -> usize {
-        self.logic.outputs().len() - Register::outputs(&self.registers)
+    pub fn own_clocks(&self) -> &[NetId] {
+        &self.netlist.inputs()[self.ports().len()..]
     }
 
-    /// The clocks that no input or register has the name of.
-    pub(crate) fn own_clocks(&self) -> BTreeSet<&str> {
-        let known: BTreeSet<String> = self.logic.inputs().iter().map(|&id| self.logic.net_name(id)).collect();
-        self.registers.iter().map(Register::clock_name).filter(|&clock| !known.contains(clock)).collect()
+    /// The input or register with this name, or else a clock of this name that is not a port.
+    pub(crate) fn clock(&mut self, name: &str) -> NetId {
+        let registers = self.netlist.registers().map(|(id, _)| id);
+        let known =
+            self.netlist.inputs().iter().copied().chain(registers).find(|&id| self.netlist.net_name(id) == name);
+        known.unwrap_or_else(|| {
+            self.clocks += 1;
+            self.netlist.add_input(name)
+        })
     }
 
-    /// The design as one netlist, in which registers are nodes. A clock that is not an input becomes one.
-    pub fn netlist(&self) -> Netlist {
-        self.netlist_with(&self.own_clocks()).0
-    }
-
-    /// As [`Self::netlist`], with these additional inputs; also the registers, in order.
-    pub(crate) fn netlist_with(&self, clocks: &BTreeSet<&str>) -> (Netlist, Vec<NetId>) {
-        let logic = &self.logic;
-        let mut netlist = Netlist::with_blocks_of(logic);
-        let (ports, states) = logic.inputs().split_at(self.inputs());
-        let (outputs, nexts) = logic.outputs().split_at(self.outputs());
-        let mut net: BTreeMap<NetId, NetId> = BTreeMap::new();
-        for &id in ports {
-            net.insert(id, netlist.add_input(logic.net_name(id)));
+    /// The logic between registers: the value of each is an input after the ports, and its data and what forces it are
+    /// outputs.
+    pub fn opened(&self) -> Netlist {
+        let mut logic = self.netlist.clone();
+        let registers: Vec<(NetId, String)> =
+            self.netlist.registers().map(|(id, _)| (id, self.netlist.net_name(id))).collect();
+        for (id, name) in &registers {
+            logic.replace_register(*id, Node::Input(name.clone()));
         }
-        let mut by_name: BTreeMap<String, NetId> =
-            clocks.iter().map(|&clock| (clock.to_owned(), netlist.add_input(clock))).collect();
-        let mut registers = Vec::new();
-        for (&id, register) in states.iter().zip(&self.registers) {
-            let Register { name, kind, start, forcing, .. } = register.clone();
-            registers.push(netlist.add_loose_register(RegisterNode {
-                kind,
-                forcing,
-                start,
-                name: Some(name),
-                span: None,
-            }));
-            net.extend(registers.last().map(|&made| (id, made)));
+        for (id, name) in &registers {
+            logic.add_output(format!("{name}_next"), self.netlist.pins(*id)[0]);
         }
-        copy(logic, &mut netlist, &mut net);
-        for id in logic.ids().filter(|id| !matches!(logic.node(*id), Node::Output(_) | Node::Constant(_))) {
-            by_name.entry(logic.net_name(id)).or_insert(net[&id]);
+        for (id, name) in &registers {
+            let words = self.netlist.register(*id).map_or(&[][..], |register| register.forcing.nets());
+            for (word, &pin) in words.iter().zip(&self.netlist.pins(*id)[2..]) {
+                logic.add_output(format!("{name}_{word}"), pin);
+            }
         }
-        let forcing = self.forcing_nets();
-        for ((register, made), (&next, forcing)) in self.registers.iter().zip(&registers).zip(nexts.iter().zip(forcing))
-        {
-            let clock = by_name[register.clock_name()];
-            let pins = [net[&logic.pins(next)[0]], clock].into_iter().chain(forcing.iter().map(|pin| net[pin]));
-            (0..).zip(pins).for_each(|(pin, driver)| netlist.connect(*made, pin, driver));
-        }
-        for &id in outputs {
-            netlist.add_output(logic.net_name(id), net[&logic.pins(id)[0]]);
-        }
-        (netlist, registers)
+        self.own_clocks().iter().for_each(|&clock| logic.remove(clock));
+        logic
     }
 
-    pub(crate) fn forcing(&self) -> Vec<&[NetId]> {
-        let mut rest = &self.logic.outputs()[self.outputs() + self.registers.len()..];
-        let mut next = |register: &Register| rest.split_off(..register.forcing.nets().len()).expect("one for each net");
-        self.registers.iter().map(&mut next).collect()
-    }
-
-    pub(crate) fn forcing_nets(&self) -> Vec<Vec<NetId>> {
-        let driver = |&output: &NetId| self.logic.pins(output)[0];
-        self.forcing().into_iter().map(|outputs| outputs.iter().map(driver).collect()).collect()
-    }
-}
-
-fn copy(logic: &Netlist, netlist: &mut Netlist, net: &mut BTreeMap<NetId, NetId>) {
-    let mut made = Vec::new();
-    for &id in Loops::of(logic).order() {
-        let copy = match logic.node(id) {
-            Node::Constant(value) => netlist.add_constant(*value),
-            Node::Cell(cell) => netlist.add_loose_cell(cell.clone()),
-            Node::Wire { name, start, span } => netlist.add_wire(name, *start, *span),
-            Node::Input(_) | Node::Output(_) | Node::Register(_) => continue,
-        };
-        netlist.put_into(copy, logic.block(id));
-        net.insert(id, copy);
-        made.push((id, copy));
-    }
-    for (id, copy) in made {
-        for (pin, driver) in (0..).zip(logic.pins(id)) {
-            netlist.connect(copy, pin, net[&driver]);
+    /// The design with other logic between its registers, which is opened as [`Self::opened`] does.
+    pub fn closed(&self, logic: Netlist) -> Self {
+        let mut netlist = logic;
+        let inputs: Vec<NetId> = netlist.inputs().to_vec();
+        let outputs: Vec<NetId> = netlist.outputs()[self.netlist.outputs().len()..].to_vec();
+        let registers: Vec<(NetId, RegisterNode)> =
+            self.netlist.registers().map(|(id, register)| (id, register.clone())).collect();
+        let (nexts, mut forcing) = outputs.split_at(registers.len());
+        let own = self.ports().iter().copied().chain(registers.iter().map(|(id, _)| *id));
+        let mut made: BTreeMap<NetId, NetId> = own.zip(inputs).collect();
+        for &clock in self.own_clocks() {
+            made.insert(clock, netlist.add_input(self.netlist.net_name(clock)));
         }
+        for ((id, register), &next) in registers.into_iter().zip(nexts) {
+            let count = register.forcing.nets().len();
+            let forced = forcing.split_off(..count).unwrap_or_default();
+            let mut pins: Vec<NetId> = std::iter::once(&next).chain(forced).map(|&pin| netlist.pins(pin)[0]).collect();
+            pins.insert(1, made[&self.netlist.pins(id)[1]]);
+            netlist.replace_input(made[&id], Node::Register(register));
+            (0..).zip(pins).for_each(|(pin, net)| netlist.connect(made[&id], pin, net));
+        }
+        outputs.into_iter().for_each(|output| netlist.remove(output));
+        Self { netlist, ..self.clone() }
     }
 }

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use crate::formats::wording::text as wording;
-use crate::formats::{Design, Register, RegisterKind};
+use crate::formats::{Design, Forcing, RegisterKind};
 use crate::proof::prove;
-use crate::{NetId, Netlist};
+use crate::{NetId, Netlist, RegisterNode};
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::model::Function;
@@ -41,10 +41,14 @@ impl Definition {
 
 #[derive(Clone, Debug)]
 pub struct DraftRegister {
-    pub register: Register,
+    pub kind: RegisterKind,
+    pub forcing: Forcing,
+    pub start: Option<bool>,
     pub output: NetName,
     pub next: NetName,
-    pub forcing: Vec<NetName>,
+    pub clock: NetName,
+    /// What forces it.
+    pub nets: Vec<NetName>,
     pub span: Span,
 }
 
@@ -129,27 +133,26 @@ impl Draft {
         let mut wires = Vec::new();
         let mut known = BTreeMap::new();
         for at in 0..self.registers.len() {
-            let DraftRegister { register, span, output, next, forcing } = self.registers[at].clone();
-            let Some(&number) = register.clock.as_ref().and_then(|clock| self.numbers.get(clock)) else { continue };
-            let source = self.source(number);
-            if self.definitions[source as usize].is_some() {
-                let open = match register.kind {
-                    RegisterKind::High => Some(true),
-                    RegisterKind::Low => Some(false),
-                    RegisterKind::Rising | RegisterKind::Falling => None,
-                };
-                match open {
-                    Some(open)
-                        if forcing.is_empty()
-                            && *known.entry((source, open)).or_insert_with(|| self.is_always(source, open, span)) =>
-                    {
-                        wires.push((at, output, next, span));
-                    }
-                    Some(_) => self.fault(wording::logic_enable(&register.name, span)),
-                    None => self.fault(wording::logic_clock(self.text(number), &register.name, span)),
+            let DraftRegister { kind, span, output, next, clock, nets, .. } = self.registers[at].clone();
+            let source = self.source(clock);
+            if self.definitions[source as usize].is_none() {
+                self.registers[at].clock = source;
+                continue;
+            }
+            let open = match kind {
+                RegisterKind::High => Some(true),
+                RegisterKind::Low => Some(false),
+                RegisterKind::Rising | RegisterKind::Falling => None,
+            };
+            match open {
+                Some(open)
+                    if nets.is_empty()
+                        && *known.entry((source, open)).or_insert_with(|| self.is_always(source, open, span)) =>
+                {
+                    wires.push((at, output, next, span));
                 }
-            } else {
-                self.registers[at].register.clock = Some(self.text(source).to_owned());
+                Some(_) => self.fault(wording::logic_enable(self.text(output), span)),
+                None => self.fault(wording::logic_clock(self.text(clock), self.text(output), span)),
             }
         }
         for &(at, output, next, span) in wires.iter().rev() {
@@ -167,12 +170,12 @@ impl Draft {
             return false;
         };
         let mut constant = Netlist::new(self.title.clone());
-        for &input in probe.logic.inputs() {
-            constant.add_input(probe.logic.net_name(input));
+        for &input in probe.netlist.inputs() {
+            constant.add_input(probe.netlist.net_name(input));
         }
         let driver = constant.add_constant(value);
-        constant.add_output(probe.logic.net_name(probe.logic.outputs()[0]), driver);
-        prove(&probe.logic, &constant).is_ok()
+        constant.add_output(probe.netlist.net_name(probe.netlist.outputs()[0]), driver);
+        prove(&probe.netlist, &constant).is_ok()
     }
 
     pub fn finish(mut self) -> Result<Design, Vec<Diagnostic>> {
@@ -184,21 +187,31 @@ impl Draft {
         let mut nets: Vec<Option<NetId>> = vec![None; self.names.len()];
         let states = self.registers.iter().map(|register| (register.output, register.span));
         let sources: Vec<_> = self.inputs.iter().copied().chain(states).collect();
-        for (name, span) in sources {
+        let mut made = Vec::new();
+        for (at, &(name, span)) in sources.iter().enumerate() {
             if nets[name as usize].is_some() || self.definitions[name as usize].is_some() {
                 self.fault(wording::driven_twice(self.text(name), span));
                 continue;
             }
-            nets[name as usize] = Some(logic.add_input(self.text(name)));
+            let text = self.text(name);
+            nets[name as usize] = Some(match at.checked_sub(self.inputs.len()) {
+                None => logic.add_input(text),
+                Some(at) => {
+                    let DraftRegister { kind, forcing, start, .. } = self.registers[at];
+                    let name = Some(text.to_owned());
+                    let id = logic.add_loose_register(RegisterNode { kind, forcing, start, name, span: None });
+                    made.push(id);
+                    id
+                }
+            });
         }
-        let nexts = self.registers.iter().map(|register| (register.next, register.span));
-        let forcing = |register: &DraftRegister| {
+        let pins = |register: &DraftRegister| {
             let span = register.span;
-            register.forcing.iter().map(move |&net| (net, span)).collect::<Vec<_>>()
+            std::iter::once(&register.next).chain(&register.nets).map(move |&net| (net, span)).collect::<Vec<_>>()
         };
-        let forcing = self.registers.iter().flat_map(forcing);
-        let sinks: Vec<_> = self.outputs.iter().copied().chain(nexts).chain(forcing).collect();
+        let sinks: Vec<_> = self.outputs.iter().copied().chain(self.registers.iter().flat_map(pins)).collect();
         let feedback = self.feedback(&mut logic, &mut nets);
+        let sources = nets.clone();
         for &(name, span) in &sinks {
             self.build(name, span, &mut logic, &mut nets);
         }
@@ -211,21 +224,22 @@ impl Draft {
         if !self.errors.is_empty() {
             return Err(self.errors);
         }
-        for (&(name, _), label) in sinks.iter().zip(self.labels()) {
-            logic.add_output(label, nets[name as usize].expect("every output was built"));
+        let net = |name: NetName| nets[name as usize].expect("every output was built");
+        for &(name, _) in &self.outputs {
+            logic.add_output(self.text(name), net(name));
         }
-        Ok(Design::new(logic, self.registers.into_iter().map(|register| register.register).collect()))
-    }
-
-    fn labels(&self) -> Vec<String> {
-        let registers = || self.registers.iter().map(|draft| &draft.register);
-        let ports = self.outputs.iter().map(|&(name, _)| self.text(name).to_owned());
-        let nexts = registers().map(|register| format!("{}_next", register.name));
-        let forced = |register: &Register| {
-            let name = register.name.clone();
-            register.forcing.nets().iter().map(move |word| format!("{name}_{word}"))
-        };
-        ports.chain(nexts).chain(registers().flat_map(forced)).collect()
+        let is_own = |clock: &NetName| sources[*clock as usize].is_none();
+        let clocks = self.registers.iter().map(|register| register.clock).filter(is_own);
+        let own: BTreeMap<&str, NetName> = clocks.map(|clock| (self.text(clock), clock)).collect();
+        let own: BTreeMap<NetName, NetId> =
+            own.into_iter().map(|(name, clock)| (clock, logic.add_input(name))).collect();
+        for (register, id) in self.registers.iter().zip(made) {
+            let clock = own.get(&register.clock).copied().unwrap_or_else(|| net(register.clock));
+            let forcing = register.nets.iter().map(|&name| net(name));
+            let pins = [net(register.next), clock].into_iter().chain(forcing);
+            (0..).zip(pins).for_each(|(pin, driver)| logic.connect(id, pin, driver));
+        }
+        Ok(Design { clocks: own.len(), ..Design::new(logic) })
     }
 
     fn feedback(&self, logic: &mut Netlist, nets: &mut [Option<NetId>]) -> Vec<(NetName, NetId)> {

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use crate::Loops;
 use crate::formats::wording::encode as wording;
 use crate::formats::{Design, Forcing, RegisterKind, aiger, blif, dot, nb, pla, verilog};
+use crate::{Loops, NetId};
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 
@@ -63,7 +63,9 @@ impl CircuitFormat {
     pub fn encode(self, design: &Design) -> Result<Vec<u8>, Diagnostic> {
         match self {
             Self::AigerBinary | Self::AigerText => fits_aiger(design)?,
-            Self::Nb if design.outputs() == 0 => return Err(wording::nb_without_outputs(&design.logic.name)),
+            Self::Nb if design.netlist.outputs().is_empty() => {
+                return Err(wording::nb_without_outputs(&design.netlist.name));
+            }
             Self::Pla => fits_pla(design)?,
             Self::Nb | Self::Blif | Self::Verilog | Self::Dot => {}
         }
@@ -73,7 +75,7 @@ impl CircuitFormat {
             Self::AigerBinary => aiger::write(design, true),
             Self::AigerText => aiger::write(design, false),
             Self::Verilog => verilog::write(design).into_bytes(),
-            Self::Dot => dot::write(&design.logic).into_bytes(),
+            Self::Dot => dot::write(&design.netlist).into_bytes(),
             Self::Nb => nb::write(design).into_bytes(),
         })
     }
@@ -81,47 +83,47 @@ impl CircuitFormat {
 
 /// AIGER has flip-flops of one clock without a name, and no loops.
 fn fits_aiger(design: &Design) -> Result<(), Diagnostic> {
-    if !Loops::of(&design.logic).cores().is_empty() {
+    if !Loops::of(&design.netlist).cores().is_empty() {
         return Err(wording::aiger_loop());
     }
-    if let Some(register) = design.registers.iter().find(|register| register.forcing != Forcing::Never) {
-        return Err(wording::aiger_forced(&register.name));
+    let netlist = &design.netlist;
+    if let Some((id, _)) = netlist.registers().find(|(_, register)| register.forcing != Forcing::Never) {
+        return Err(wording::aiger_forced(&netlist.net_name(id)));
     }
-    if let Some(register) = design.registers.iter().find(|register| register.kind != RegisterKind::Rising) {
-        return Err(wording::aiger_register(&register.name, register.kind));
+    if let Some((id, register)) = netlist.registers().find(|(_, register)| register.kind != RegisterKind::Rising) {
+        return Err(wording::aiger_register(&netlist.net_name(id), register.kind));
     }
-    let clocks: BTreeSet<&str> = design.registers.iter().filter_map(|register| register.clock.as_deref()).collect();
+    let clocks: BTreeSet<NetId> = netlist.registers().map(|(id, _)| netlist.pins(id)[1]).collect();
     if clocks.len() > 1 {
-        return Err(wording::aiger_clocks(clocks));
+        let names: BTreeSet<String> = clocks.into_iter().map(|clock| netlist.net_name(clock)).collect();
+        return Err(wording::aiger_clocks(names.iter().map(String::as_str)));
     }
     Ok(())
 }
 
 /// A PLA is two-level logic, written from a truth table.
 fn fits_pla(design: &Design) -> Result<(), Diagnostic> {
-    if !design.registers.is_empty() || !Loops::of(&design.logic).cores().is_empty() {
+    let inputs = design.netlist.inputs().len();
+    if design.netlist.registers().next().is_some() || !Loops::of(&design.netlist).cores().is_empty() {
         return Err(wording::pla_state());
     }
-    Limit::TriedBits.permit(design.inputs() as u64).map_err(|_| wording::pla_inputs(design.inputs()))
+    Limit::TriedBits.permit(inputs as u64).map_err(|_| wording::pla_inputs(inputs))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Netlist;
-    use crate::formats::Register;
+    use crate::{Netlist, RegisterNode};
 
     fn check(registers: &[(RegisterKind, &str)], expected: Option<&str>) {
-        let mut logic = Netlist::new("m");
-        let states: Vec<_> = (0..registers.len()).map(|i| logic.add_input(format!("q{i}"))).collect();
-        for (i, &state) in states.iter().enumerate() {
-            logic.add_output(format!("q{i}_next"), state);
+        let mut design = Design::new(Netlist::new("m"));
+        for (i, &(kind, clock)) in registers.iter().enumerate() {
+            let clock = design.clock(clock);
+            let name = Some(format!("q{i}"));
+            let register = RegisterNode { kind, forcing: Forcing::Never, start: None, name, span: None };
+            let id = design.netlist.add_loose_register(register);
+            (0..).zip([id, clock]).for_each(|(pin, net)| design.netlist.connect(id, pin, net));
         }
-        let register = |(i, &(kind, clock)): (usize, &(RegisterKind, &str))| Register {
-            kind,
-            ..Register::flip_flop(format!("q{i}"), clock)
-        };
-        let design = Design::new(logic, registers.iter().enumerate().map(register).collect());
 
         for format in [CircuitFormat::AigerText, CircuitFormat::AigerBinary] {
             let said = format.encode(&design).err().map(|fault| fault.message);

@@ -22,6 +22,6 @@ mod wording;
 pub use crate::register::{Forcing, RegisterKind};
 pub use aiger_model::AigerModel;
 pub use blif::{verilog_design, verilog_module};
-pub use design::{Design, Register};
+pub use design::Design;
 pub use format::{CircuitFormat, CircuitSource};
 pub use nb_names::is_word;

@@ -2,70 +2,49 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::formats::{Design, Register};
-use crate::{Logic, Loops, NetId, Netlist, Node};
+use crate::formats::Design;
+use crate::{Logic, Loops, NetId, Netlist, Node, RegisterNode};
 
 pub struct FileNames {
     nets: BTreeMap<NetId, String>,
-    /// The nets that clock registers, by the names that the registers have for them.
-    clocked: BTreeMap<String, NetId>,
-    clocks: BTreeMap<String, String>,
-}
-
-pub enum ClockName<'n> {
-    Net(NetId),
-    Own(&'n str),
 }
 
 impl FileNames {
     /// `legal` turns a name into a valid one of the format, and `kept` are reserved words.
-    /// Names are assigned first to ports, then to clocks that are not ports, then to the values of registers and to the
-    /// outputs for them (the last inputs and outputs), then to cells. An output that is the input of its name gets
-    /// another name, unless the format has them `apart`.
-    pub fn new(
-        netlist: &Netlist,
-        registers: &[Register],
-        kept: &[&str],
-        apart: bool,
-        legal: impl Fn(&str) -> String,
-    ) -> Self {
+    /// Names are assigned first to ports, then to clocks that are not ports, then to registers and to the cells that
+    /// compute their data, then to the others. An output that is the input of its name gets another name, unless the
+    /// format has them `apart`.
+    pub fn new(design: &Design, kept: &[&str], apart: bool, legal: impl Fn(&str) -> String) -> Self {
+        let netlist = &design.netlist;
         let mut taken: BTreeSet<String> = kept.iter().map(|&word| word.to_owned()).collect();
         let mut nets = BTreeMap::new();
-        let (inputs, states) = netlist.inputs().split_at(netlist.inputs().len() - registers.len());
-        let (outputs, nexts) = netlist.outputs().split_at(netlist.outputs().len() - Register::outputs(registers));
-        for &id in inputs.iter().chain(outputs) {
+        for &id in design.ports().iter().chain(netlist.outputs()) {
             let wish = netlist.net_name(id);
             let driver = netlist.pins(id).first().copied().filter(|_| apart);
-            let known = driver.filter(|driver| inputs.contains(driver) && netlist.net_name(*driver) == wish);
+            let known = driver.filter(|driver| design.ports().contains(driver) && netlist.net_name(*driver) == wish);
             let name = known.and_then(|input| nets.get(&input).cloned());
             nets.insert(id, name.unwrap_or_else(|| free(&mut taken, legal(&wish))));
         }
-        let wanted: BTreeSet<&String> = registers.iter().filter_map(|register| register.clock.as_ref()).collect();
-        let sources = || inputs.iter().chain(states);
-        let source = |clock: &&String| sources().copied().find(|&id| netlist.net_name(id) == **clock);
-        let clocked = wanted.iter().filter_map(|clock| Some(((*clock).clone(), source(clock)?))).collect();
-        let own = wanted.iter().filter(|clock| source(clock).is_none());
-        let clocks = own.map(|clock| ((*clock).clone(), free(&mut taken, legal(clock)))).collect();
+        let own_clocks = design.own_clocks().iter().map(|&id| (id, netlist.net_name(id)));
+        let registers = netlist.registers().map(|(id, _)| (id, netlist.net_name(id)));
         let others = netlist.ids().filter(|&id| matches!(netlist.node(id), Node::Cell(_) | Node::Wire { .. }));
-        for id in states.iter().chain(nexts).copied().chain(others) {
-            nets.insert(id, free(&mut taken, legal(&netlist.net_name(id))));
+        let others = others.map(|id| (id, netlist.net_name(id)));
+        for (id, wish) in own_clocks.chain(registers).chain(nexts(netlist)).chain(others) {
+            nets.entry(id).or_insert_with(|| free(&mut taken, legal(&wish)));
         }
-        Self { nets, clocked, clocks }
+        Self { nets }
     }
 
     pub fn net(&self, id: NetId) -> &str {
         &self.nets[&id]
     }
+}
 
-    pub fn own_clocks(&self) -> impl Iterator<Item = &str> {
-        self.clocks.values().map(String::as_str)
-    }
-
-    pub fn clock(&self, register: &Register) -> Option<ClockName<'_>> {
-        let clock = register.clock.as_ref()?;
-        let net = self.clocked.get(clock).map(|&id| ClockName::Net(id));
-        net.or_else(|| self.clocks.get(clock).map(|name| ClockName::Own(name)))
-    }
+/// The cells without names that compute the data of registers, each with the name of the first such register.
+pub(super) fn nexts(netlist: &Netlist) -> Vec<(NetId, String)> {
+    let data = |(id, _)| (netlist.pins(id)[usize::from(RegisterNode::DATA)], format!("{}_next", netlist.net_name(id)));
+    let is_free = |id: NetId| netlist.cell(id).is_some() && !netlist.is_named(id);
+    netlist.registers().map(data).filter(|&(id, _)| is_free(id)).collect()
 }
 
 pub(super) fn free(taken: &mut BTreeSet<String>, wish: String) -> String {
@@ -82,14 +61,12 @@ pub fn visible(name: &str, unreadable: &[char]) -> String {
     if visible.is_empty() { "_".to_owned() } else { visible }
 }
 
-/// For each cell or register value that drives a port or a next value, the output that names it: the first.
-pub fn stand_ins(design: &Design) -> BTreeMap<NetId, NetId> {
-    let netlist = &design.logic;
+/// For each cell or register that drives a port, the output that names it: the first.
+pub fn stand_ins(netlist: &Netlist) -> BTreeMap<NetId, NetId> {
     let mut stand_ins = BTreeMap::new();
-    let states = &netlist.inputs()[design.inputs()..];
-    for &output in &netlist.outputs()[..design.outputs() + design.registers.len()] {
+    for &output in netlist.outputs() {
         let driver = netlist.pins(output)[0];
-        if matches!(netlist.node(driver), Node::Cell(_)) || states.contains(&driver) {
+        if matches!(netlist.node(driver), Node::Cell(_) | Node::Register(_)) {
             stand_ins.entry(driver).or_insert(output);
         }
     }
@@ -124,7 +101,7 @@ mod tests {
         let gate = netlist.add_gate(Function::AND, &[a, b]);
         netlist.rename(gate, "a\u{1b}b");
         let output = netlist.add_output("", gate);
-        let names = FileNames::new(&netlist, &[], &["_"], true, |name| visible(name, &[]));
+        let names = FileNames::new(&Design::new(netlist), &["_"], true, |name| visible(name, &[]));
         assert_eq!([a, b, gate, output].map(|id| names.net(id)), ["a_b", "a_b_1", "a_b_2", "__1"]);
     }
 
@@ -134,7 +111,7 @@ mod tests {
         let [a, b] = ["a", "b"].map(|name| netlist.add_input(name));
         let outputs = [("a", a), ("a", b), ("b", a)].map(|(name, net)| netlist.add_output(name, net));
         for (apart, expected) in [(true, ["a", "a_1", "b_1"]), (false, ["a_1", "a_2", "b_1"])] {
-            let names = FileNames::new(&netlist, &[], &[], apart, str::to_owned);
+            let names = FileNames::new(&Design::new(netlist.clone()), &[], apart, str::to_owned);
             assert_eq!(outputs.map(|id| names.net(id)), expected);
         }
     }

@@ -5,16 +5,16 @@ use std::fmt::Write;
 
 use crate::formats::names::cells_in_order;
 use crate::formats::nb_names::{NamedBit, NamedNet, NbNames, word};
-use crate::formats::{Design, Forcing, Register, RegisterKind};
-use crate::{Loops, NetId, Node};
+use crate::formats::{Design, Forcing, RegisterKind};
+use crate::{Loops, NetId, Netlist, Node, RegisterNode};
 use nbc_base::model::Function;
 
 /// The most bits of one call of a register: its start value must be a literal.
 const MOST_BITS: usize = 32;
 
 pub fn write(design: &Design) -> String {
-    let (names, loops) = (NbNames::new(design), Loops::of(&design.logic));
-    let writer = Writer { design, names, loops, forcing: design.forcing_nets() };
+    let netlist = &design.netlist;
+    let writer = Writer { netlist, names: NbNames::new(design), loops: Loops::of(netlist) };
     let mut statements = Vec::new();
     let declared = writer.registers(&mut statements);
     writer.cells(&mut statements);
@@ -31,31 +31,27 @@ pub fn write(design: &Design) -> String {
 }
 
 struct Writer<'d> {
-    design: &'d Design,
+    netlist: &'d Netlist,
     names: NbNames,
     loops: Loops,
-    forcing: Vec<Vec<NetId>>,
 }
 
 impl Writer<'_> {
     fn head(&self) -> String {
-        let name = &self.design.logic.name;
+        let name = &self.netlist.name;
         let title = if name.is_empty() { "main".to_owned() } else { word(name) };
         let declared = |nets: &[NamedNet]| nets.iter().map(NamedNet::declared).collect::<Vec<_>>();
-        let mut inputs = declared(&self.names.inputs);
-        inputs.extend(self.names.clocks.values().cloned());
+        let inputs = declared(&self.names.inputs);
         format!("circuit {title}({}) -> ({}) {{\n", inputs.join(", "), declared(&self.names.outputs).join(", "))
     }
 
     fn bit(&self, id: NetId) -> NamedBit {
-        self.names.bit(&self.design.logic, id)
+        self.names.bit(self.netlist, id)
     }
 
     fn registers(&self, statements: &mut Vec<String>) -> Vec<String> {
-        let logic = &self.design.logic;
-        let states = &logic.inputs()[self.design.inputs()..];
-        let shown = |(at, id): (usize, &NetId)| (*self.names.stand_ins.get(id).unwrap_or(id), at);
-        let registers: BTreeMap<NetId, usize> = states.iter().enumerate().map(shown).collect();
+        let shown = |(id, _)| (*self.names.stand_ins.get(&id).unwrap_or(&id), id);
+        let registers: BTreeMap<NetId, NetId> = self.netlist.registers().map(shown).collect();
         let mut declared: Vec<_> =
             self.names.nexts.iter().filter(|net| net.bits.len() > 1).map(NamedNet::declared).collect();
         for (net, is_port) in
@@ -71,24 +67,25 @@ impl Writer<'_> {
         declared
     }
 
-    fn runs<'r>(&self, known: &'r [(NetId, usize)], width: usize) -> Vec<&'r [(NetId, usize)]> {
-        let register = |at: usize| &self.design.registers[at];
-        let change = |at: usize| {
-            let register = register(at);
-            (register.kind, &register.clock, register.forcing, &self.forcing[at])
+    fn runs<'r>(&self, known: &'r [(NetId, NetId)], width: usize) -> Vec<&'r [(NetId, NetId)]> {
+        let change = |id: NetId| {
+            let register = self.node(id);
+            (register.kind, register.forcing, self.netlist.pins(id).split_off(1))
         };
         let together = known.len() == width && known.windows(2).all(|pair| change(pair[0].1) == change(pair[1].1));
         known.chunks(if together { MOST_BITS } else { 1 }).collect()
     }
 
-    fn register(&self, run: &[(NetId, usize)]) -> String {
-        let logic = &self.design.logic;
-        let register = &self.design.registers[run[0].1];
-        let nexts = &logic.outputs()[self.design.outputs()..];
+    fn node(&self, id: NetId) -> &RegisterNode {
+        self.netlist.register(id).expect("these are registers")
+    }
+
+    fn register(&self, run: &[(NetId, NetId)]) -> String {
+        let (register, pins) = (self.node(run[0].1), self.netlist.pins(run[0].1));
         let joined = |bits: Vec<NamedBit>| NamedBit::joined(&bits.into_iter().rev().collect::<Vec<_>>());
         let target = joined(run.iter().map(|(shown, _)| self.bit(*shown)).collect());
-        let next = joined(run.iter().map(|(_, at)| self.bit(logic.pins(nexts[*at])[0])).collect());
-        let clock = self.clock(register);
+        let next = joined(run.iter().map(|(_, id)| self.bit(self.netlist.pins(*id)[0])).collect());
+        let clock = self.bit(pins[1]).text();
         let (word, clock) = match register.kind {
             RegisterKind::Rising => ("register", clock),
             RegisterKind::Falling => ("register", format!("not {clock}")),
@@ -100,27 +97,14 @@ impl Writer<'_> {
             Forcing::ToStart => format!("async_{word}"),
             Forcing::SetReset => format!("set_reset_{word}"),
         };
-        let forcing: String = self.forcing[run[0].1].iter().map(|&net| format!(", {}", self.bit(net).text())).collect();
-        let value = |at: usize| u64::from(self.design.registers[at].starts_at());
-        let start = run.iter().rev().fold(0, |sum, (_, at)| sum << 1 | value(*at));
+        let forcing: String = pins[2..].iter().map(|&net| format!(", {}", self.bit(net).text())).collect();
+        let start = run.iter().rev().fold(0, |sum, (_, id)| sum << 1 | u64::from(self.node(*id).starts_at()));
         let start = if start == 0 { String::new() } else { format!("[start = {start}]") };
         format!("{target} = {word}{start}({next}, {clock}{forcing})")
     }
 
-    fn clock(&self, register: &Register) -> String {
-        let clock = register.clock_name();
-        match self.names.clocks.get(clock) {
-            Some(own) => own.clone(),
-            None => {
-                let logic = &self.design.logic;
-                let source = logic.inputs().iter().find(|&&id| logic.net_name(id) == clock);
-                self.bit(*source.expect("a clock is an input, a register or its own")).text()
-            }
-        }
-    }
-
     fn cells(&self, statements: &mut Vec<String>) {
-        let logic = &self.design.logic;
+        let logic = self.netlist;
         let init = |start: Option<bool>| start.map_or(String::new(), |start| format!(" init {}", u8::from(start)));
         for id in cells_in_order(logic) {
             let cell = logic.cell(id).expect("the order holds cells");
@@ -137,8 +121,8 @@ impl Writer<'_> {
     }
 
     fn copies(&self, statements: &mut Vec<String>) {
-        let logic = &self.design.logic;
-        for &id in &logic.outputs()[..self.design.outputs()] {
+        let logic = self.netlist;
+        for &id in logic.outputs() {
             let driver = logic.pins(id)[0];
             if self.names.stand_ins.get(&driver) != Some(&id) {
                 statements.push(format!("{} = {}", self.bit(id).text(), self.bit(driver).text()));

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::formats::Design;
 use crate::formats::buses::{Bus, buses};
 use crate::formats::names::{free, stand_ins};
-use crate::{NetId, Netlist, Node};
+use crate::{NetId, Netlist, Node, RegisterNode};
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct NamedBit {
@@ -58,7 +58,6 @@ pub(super) struct NbNames {
     /// The values of registers that no output shows, then the next values that cells compute.
     pub(super) states: Vec<NamedNet>,
     pub(super) nexts: Vec<NamedNet>,
-    pub(super) clocks: BTreeMap<String, String>,
     pub(super) stand_ins: BTreeMap<NetId, NetId>,
     bits: BTreeMap<NetId, NamedBit>,
     taken: BTreeSet<String>,
@@ -67,26 +66,30 @@ pub(super) struct NbNames {
 
 impl NbNames {
     pub(super) fn new(design: &Design) -> Self {
-        let logic = &design.logic;
-        let (inputs, states) = logic.inputs().split_at(design.inputs());
-        let (outputs, nexts) = logic.outputs().split_at(design.outputs());
-        let mut stand_ins = stand_ins(design);
-        // A register is not named by the next value of another.
-        stand_ins.retain(|driver, output| outputs.contains(output) || !states.contains(driver));
+        let netlist = &design.netlist;
         let mut names = Self {
-            stand_ins,
+            stand_ins: stand_ins(netlist),
             ascending: design.ascending.iter().flat_map(|bus| [bus.clone(), format!("{bus}_next")]).collect(),
             ..Self::default()
         };
-        names.inputs = names.nets(inputs, |id| logic.net_name(id));
-        names.outputs = names.nets(outputs, |id| logic.net_name(id));
-        names.own_clocks(design);
-        let hidden: Vec<_> = states.iter().copied().filter(|id| !names.stand_ins.contains_key(id)).collect();
-        names.states = names.nets(&hidden, |id| logic.net_name(id));
-        let computed: BTreeSet<_> = names.stand_ins.values().copied().collect();
-        let computed: Vec<_> = nexts.iter().copied().filter(|id| computed.contains(id)).collect();
-        names.nexts = names.nets(&computed, |id| next_name(&logic.net_name(id)));
-        names.others(logic);
+        names.inputs = names.nets(design.ports(), |id| netlist.net_name(id));
+        names.outputs = names.nets(netlist.outputs(), |id| netlist.net_name(id));
+        let clocks = names.nets(design.own_clocks(), |id| netlist.net_name(id));
+        names.inputs.extend(clocks);
+        let registers: Vec<NetId> = netlist.registers().map(|(id, _)| id).collect();
+        let hidden: Vec<_> = registers.iter().copied().filter(|id| !names.stand_ins.contains_key(id)).collect();
+        names.states = names.nets(&hidden, |id| netlist.net_name(id));
+        let mut nexts: BTreeMap<NetId, String> = BTreeMap::new();
+        let mut computed = Vec::new();
+        for id in registers {
+            let data = netlist.pins(id)[usize::from(RegisterNode::DATA)];
+            if netlist.cell(data).is_some() && !names.stand_ins.contains_key(&data) && !nexts.contains_key(&data) {
+                nexts.insert(data, next_name(&netlist.net_name(id)));
+                computed.push(data);
+            }
+        }
+        names.nexts = names.nets(&computed, |id| nexts[&id].clone());
+        names.others(netlist);
         names
     }
 
@@ -103,17 +106,9 @@ impl NbNames {
         buses(&names, &self.ascending).into_iter().map(&mut net).collect()
     }
 
-    fn own_clocks(&mut self, design: &Design) {
-        let known: BTreeSet<String> = design.logic.inputs().iter().map(|&id| design.logic.net_name(id)).collect();
-        let clocks: BTreeSet<&str> = design.registers.iter().map(|register| register.clock_name()).collect();
-        for clock in clocks.into_iter().filter(|&clock| !known.contains(clock)) {
-            self.clocks.insert(clock.to_owned(), free(&mut self.taken, word(clock)));
-        }
-    }
-
     fn others(&mut self, logic: &Netlist) {
         for id in logic.ids().filter(|&id| matches!(logic.node(id), Node::Cell(_) | Node::Wire { .. })) {
-            if !self.stand_ins.contains_key(&id) {
+            if !self.stand_ins.contains_key(&id) && !self.bits.contains_key(&id) {
                 let name = free(&mut self.taken, word(&logic.net_name(id)));
                 self.bits.insert(id, NamedBit::alone(name));
             }
@@ -130,8 +125,8 @@ impl NbNames {
 
 /// The name of a register's next value: the next values of a bus are a bus.
 fn next_name(name: &str) -> String {
-    let bit = name.strip_suffix("_next").and_then(|state| state.strip_suffix(']')?.rsplit_once('['));
-    bit.map_or_else(|| name.to_owned(), |(bus, bit)| format!("{bus}_next[{bit}]"))
+    let bit = name.strip_suffix(']').and_then(|name| name.rsplit_once('['));
+    bit.map_or_else(|| format!("{name}_next"), |(bus, bit)| format!("{bus}_next[{bit}]"))
 }
 
 pub fn is_word(name: &str) -> bool {

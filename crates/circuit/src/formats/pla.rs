@@ -250,9 +250,9 @@ fn numbered(letter: &str, width: usize, span: Span) -> Vec<(String, Span)> {
 
 /// The design has no registers and no loops, and so few inputs that its truth table can be written.
 pub fn write(design: &Design) -> String {
-    let netlist = &design.logic;
+    let netlist = &design.netlist;
     let (inputs, outputs) = (netlist.inputs(), netlist.outputs());
-    let names = FileNames::new(netlist, &[], &[], true, |name| visible(name, &['#']));
+    let names = FileNames::new(design, &[], true, |name| visible(name, &['#']));
     let list = |ids: &[NetId]| ids.iter().map(|&id| format!(" {}", names.net(id))).collect::<String>();
     let (mut cubes, mut cube_outputs) = (Interned::default(), Vec::new());
     for (output, table) in tables(design).into_iter().enumerate() {
@@ -273,9 +273,9 @@ pub fn write(design: &Design) -> String {
 }
 
 fn tables(design: &Design) -> Vec<Vec<bool>> {
-    let bits = design.inputs();
-    let mut tables = vec![Vec::with_capacity(1 << bits); design.outputs()];
-    let mut settled = Settled::new(&design.logic);
+    let bits = design.netlist.inputs().len();
+    let mut tables = vec![Vec::with_capacity(1 << bits); design.netlist.outputs().len()];
+    let mut settled = Settled::new(&design.netlist);
     let inputs = |pattern: usize| (0..bits).rev().map(|bit| pattern >> bit & 1 == 1).collect();
     for first in (0..1usize << bits).step_by(Settled::ROWS) {
         let block: Vec<Vec<bool>> = (first..(first + Settled::ROWS).min(1 << bits)).map(inputs).collect();
@@ -293,8 +293,8 @@ mod tests {
 
     fn check(text: &str, expected: &[&str]) {
         let design = read(text, FileId(0)).unwrap_or_else(|faults| panic!("{faults:?}"));
-        let inputs = design.inputs();
-        let mut logic = Logic::new(&design.logic);
+        let inputs = design.netlist.inputs().len();
+        let mut logic = Logic::new(&design.netlist);
         let found: Vec<String> = (0..1usize << inputs)
             .map(|row| {
                 let bits: Vec<bool> = (0..inputs).rev().map(|bit| row >> bit & 1 == 1).collect();

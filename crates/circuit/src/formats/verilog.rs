@@ -6,18 +6,18 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-use crate::formats::names::{ClockName, FileNames, cells_in_order, free, stand_ins, starts, visible};
+use crate::formats::names::{FileNames, cells_in_order, free, stand_ins, starts, visible};
 use crate::formats::verilog_ports::{VerilogPorts, escaped, plain};
-use crate::formats::{Design, Forcing, Register, RegisterKind};
+use crate::formats::{Design, Forcing, RegisterKind};
 use crate::guarded::Guarded;
-use crate::{NetId, Netlist, Node};
+use crate::{NetId, Netlist, Node, RegisterNode};
 use nbc_base::model::Function;
 
 pub fn write(design: &Design) -> String {
     let mut writer = Writer::new(design);
     let mut text = writer.head();
     writer.declarations(&mut text);
-    for id in cells_in_order(&design.logic) {
+    for id in cells_in_order(&design.netlist) {
         writer.cell(&mut text, id);
     }
     writer.outputs(&mut text);
@@ -40,30 +40,34 @@ struct Writer<'d> {
     guarded: Guarded,
     stand_ins: BTreeMap<NetId, NetId>,
     modules: BTreeMap<Function, (String, usize)>,
+    /// A net that is 1, if such a one forces a register.
+    always: Option<String>,
 }
 
 impl<'d> Writer<'d> {
     fn new(design: &'d Design) -> Self {
-        let netlist = &design.logic;
+        let netlist = &design.netlist;
         let starts = starts(netlist);
         let ports = VerilogPorts::new(design, |driver| starts.contains_key(&driver));
         let kept: Vec<&str> = ports.names().into_iter().collect();
-        let names = FileNames::new(netlist, &design.registers, &kept, false, legal);
+        let names = FileNames::new(design, &kept, false, legal);
         let title = if netlist.name.is_empty() { "circuit".to_owned() } else { plain(&legal(&netlist.name)) };
-        let mut taken: BTreeSet<String> = names.own_clocks().map(str::to_owned).collect();
-        taken.extend(kept.into_iter().map(str::to_owned));
+        let mut taken: BTreeSet<String> = kept.into_iter().map(str::to_owned).collect();
         taken.extend(netlist.ids().filter(|&id| !is_constant(netlist, id)).map(|id| names.net(id).to_owned()));
-        let mut stand_ins = stand_ins(design);
+        let mut stand_ins = stand_ins(netlist);
         stand_ins.retain(|cell, _| starts.contains_key(cell));
         let guarded = Guarded::of(netlist);
-        let mut writer =
-            Self { design, names, ports, taken, title, starts, guarded, stand_ins, modules: BTreeMap::new() };
+        let forcing = netlist.registers().flat_map(|(id, _)| netlist.pins(id).split_off(2));
+        let mut constants = forcing.filter(|&id| *netlist.node(id) == Node::Constant(true));
+        let always = constants.next().map(|_| free(&mut taken, "always_1".to_owned()));
+        let modules = BTreeMap::new();
+        let mut writer = Self { design, names, ports, taken, title, starts, guarded, stand_ins, modules, always };
         writer.name_modules();
         writer
     }
 
     fn name_modules(&mut self) {
-        let netlist = &self.design.logic;
+        let netlist = &self.design.netlist;
         let mut taken = BTreeSet::from([self.title.clone()]);
         for id in netlist.ids().filter(|&id| self.guarded.role(id).is_some()) {
             let function = netlist.cell(id).expect("only cells have roles").function;
@@ -73,7 +77,7 @@ impl<'d> Writer<'d> {
     }
 
     fn name(&self, id: NetId) -> String {
-        match self.design.logic.node(id) {
+        match self.design.netlist.node(id) {
             Node::Constant(value) => format!("1'b{}", u8::from(*value)),
             _ => {
                 let id = *self.stand_ins.get(&id).unwrap_or(&id);
@@ -83,35 +87,31 @@ impl<'d> Writer<'d> {
     }
 
     fn head(&self) -> String {
-        let logic = &self.design.logic;
-        let mut ports: Vec<String> = self.names.own_clocks().map(|clock| format!("input {}", escaped(clock))).collect();
+        let logic = &self.design.netlist;
         let name = |id| self.name(id);
-        ports.extend(self.ports.declared("input", &logic.inputs()[..self.design.inputs()], name));
-        ports.extend(self.ports.declared("output", &logic.outputs()[..self.design.outputs()], name));
+        let clocks = self.design.own_clocks().iter();
+        let mut ports: Vec<String> = clocks.map(|&clock| format!("input {}", name(clock))).collect();
+        ports.extend(self.ports.declared("input", self.design.ports(), name));
+        ports.extend(self.ports.declared("output", logic.outputs(), name));
         format!("module {}({});\n", escaped(&self.title), ports.join(", "))
     }
 
     fn declarations(&self, text: &mut String) {
-        let logic = &self.design.logic;
-        let states = &logic.inputs()[self.design.inputs()..];
-        for (state, register) in states.iter().zip(&self.design.registers) {
-            let _ = writeln!(text, "    reg {} = 1'b{};", self.name(*state), u8::from(register.starts_at()));
+        let logic = &self.design.netlist;
+        for (id, register) in logic.registers() {
+            let _ = writeln!(text, "    reg {} = 1'b{};", self.name(id), u8::from(register.starts_at()));
         }
         // An event needs a net.
-        for &output in self.design.forcing().into_iter().flatten() {
-            if *logic.node(logic.pins(output)[0]) == Node::Constant(true) {
-                let _ = writeln!(text, "    wire {} = 1'b1;", self.name(output));
-            }
+        for net in self.always.iter().map(|net| escaped(net)) {
+            let _ = writeln!(text, "    wire {net} = 1'b1;");
         }
-        let cells = cells_in_order(logic).into_iter().filter(|id| !self.stand_ins.contains_key(id));
-        let nexts = &logic.outputs()[self.design.outputs()..][..self.design.registers.len()];
-        for id in cells.chain(nexts.iter().copied()) {
+        for id in cells_in_order(logic).into_iter().filter(|id| !self.stand_ins.contains_key(id)) {
             let _ = writeln!(text, "    wire {};", self.name(id));
         }
     }
 
     fn cell(&mut self, text: &mut String, id: NetId) {
-        let logic = &self.design.logic;
+        let logic = &self.design.netlist;
         let function = logic.cell(id).expect("the order holds cells").function;
         let pins: Vec<String> = logic.pins(id).into_iter().map(|pin| self.name(pin)).collect();
         let net = self.name(id);
@@ -129,8 +129,8 @@ impl<'d> Writer<'d> {
     }
 
     fn outputs(&self, text: &mut String) {
-        let logic = &self.design.logic;
-        for &id in &logic.outputs()[..self.design.outputs() + self.design.registers.len()] {
+        let logic = &self.design.netlist;
+        for &id in logic.outputs() {
             let driver = logic.pins(id)[0];
             if self.stand_ins.get(&driver) != Some(&id) {
                 let _ = writeln!(text, "    assign {} = {};", self.name(id), self.name(driver));
@@ -139,14 +139,11 @@ impl<'d> Writer<'d> {
     }
 
     fn registers(&self, text: &mut String) {
-        let logic = &self.design.logic;
-        let states = &logic.inputs()[self.design.inputs()..];
-        let nexts = &logic.outputs()[self.design.outputs()..];
-        let forcing = self.design.forcing();
-        for (((register, state), next), forcing) in self.design.registers.iter().zip(states).zip(nexts).zip(forcing) {
-            let clock = self.clock(register);
-            let (state, next) = (self.name(*state), self.name(*next));
-            let forcing = self.forcing(register, forcing);
+        let logic = &self.design.netlist;
+        for (id, register) in logic.registers() {
+            let pins = logic.pins(id);
+            let [state, next, clock] = [id, pins[0], pins[1]].map(|net| self.name(net));
+            let forcing = self.forcing(register, &pins[2..]);
             let (assign, change) = match register.kind {
                 RegisterKind::Rising => ("<=", format!("posedge {clock}")),
                 RegisterKind::Falling => ("<=", format!("negedge {clock}")),
@@ -167,32 +164,23 @@ impl<'d> Writer<'d> {
     }
 
     /// The strongest first, without nets that are always 0: Yosys does not read these as events.
-    fn forcing(&self, register: &Register, outputs: &[NetId]) -> Vec<(String, u8)> {
+    fn forcing(&self, register: &RegisterNode, nets: &[NetId]) -> Vec<(String, u8)> {
         let values = match register.forcing {
             Forcing::SetReset => vec![1, 0],
             Forcing::ToStart | Forcing::Never => vec![u8::from(register.starts_at())],
         };
         let mut forcing: Vec<(String, u8)> = Vec::new();
-        for (&output, value) in outputs.iter().zip(values).rev() {
-            let driver = self.design.logic.pins(output)[0];
-            let net = match self.design.logic.node(driver) {
+        for (&id, value) in nets.iter().zip(values).rev() {
+            let net = match self.design.netlist.node(id) {
                 Node::Constant(false) => continue,
-                Node::Constant(true) => self.name(output),
-                _ => self.name(driver),
+                Node::Constant(true) => self.always.iter().map(|net| escaped(net)).collect(),
+                _ => self.name(id),
             };
             if !forcing.iter().any(|(known, _)| *known == net) {
                 forcing.push((net, value));
             }
         }
         forcing
-    }
-
-    fn clock(&self, register: &Register) -> String {
-        match self.names.clock(register) {
-            Some(ClockName::Net(id)) => self.name(id),
-            Some(ClockName::Own(clock)) => escaped(clock),
-            None => "clk".to_owned(),
-        }
     }
 }
 
@@ -247,7 +235,7 @@ mod tests {
 
     #[test]
     fn a_full_adder_is_readable() {
-        let text = write(&Design::new(full_adder(), Vec::new()));
+        let text = write(&Design::new(full_adder()));
         assert!(
             text.starts_with("module full_adder(input a, input b, input cin, output sum, output carry);\n"),
             "{text}"
@@ -260,7 +248,7 @@ mod tests {
         let mut netlist = Netlist::new("one");
         let a = netlist.add_input("q[0]");
         netlist.add_output("q[0]", a);
-        let text = write(&Design::new(netlist, Vec::new()));
+        let text = write(&Design::new(netlist));
         assert!(text.starts_with("module one(input \\q[0] , output \\q[0]_1 );\n"), "{text}");
     }
 
@@ -268,7 +256,7 @@ mod tests {
     fn cells_of_a_loop_are_instances_with_start_values() {
         let mut logic = latch();
         dissolve_wires(&mut logic).unwrap();
-        let text = write(&Design::new(logic, Vec::new()));
+        let text = write(&Design::new(logic));
         let instances: Vec<_> = text.lines().filter(|line| line.contains("init")).collect();
         assert_eq!(instances.len(), 2, "{text}");
         assert!(instances[0].starts_with("    (* init = 1'b0 *) cell_nand "), "{text}");

@@ -14,8 +14,8 @@ pub(super) struct VerilogPorts {
 impl VerilogPorts {
     /// A name used twice stays that of single bits, as does an output that a loop drives: Yosys would rename its cells.
     pub(super) fn new(design: &Design, is_loop: impl Fn(NetId) -> bool) -> Self {
-        let logic = &design.logic;
-        let (inputs, outputs) = (&logic.inputs()[..design.inputs()], &logic.outputs()[..design.outputs()]);
+        let logic = &design.netlist;
+        let (inputs, outputs) = (design.ports(), logic.outputs());
         let names = |ids: &[NetId]| ids.iter().map(|&id| logic.net_name(id)).collect::<Vec<_>>();
         let found = [inputs, outputs].map(|ids| (ids, buses(&names(ids), &design.ascending)));
         let of = |at: usize| found[at].1.iter().map(|bus| bus.name.as_str()).collect::<BTreeSet<_>>();
@@ -116,8 +116,8 @@ mod tests {
         let mut logic = Netlist::new("m");
         let nets: Vec<NetId> = inputs.iter().map(|&name| logic.add_input(name)).collect();
         outputs.iter().for_each(|&name| _ = logic.add_output(name, nets[0]));
-        let design = Design { ascending: BTreeSet::from(["up".to_owned()]), ..Design::new(logic, Vec::new()) };
-        let (ports, logic) = (VerilogPorts::new(&design, |_| false), &design.logic);
+        let design = Design { ascending: BTreeSet::from(["up".to_owned()]), ..Design::new(logic) };
+        let (ports, logic) = (VerilogPorts::new(&design, |_| false), &design.netlist);
         let name = |id| escaped(&logic.net_name(id));
         let mut declared = ports.declared("input", logic.inputs(), name);
         declared.extend(ports.declared("output", logic.outputs(), name));

@@ -132,6 +132,10 @@ impl<'n> Lowering<'n> {
         }
     }
 
+    fn is_one_cell(&self, function: Function) -> bool {
+        self.recipes.as_ref().and_then(|recipes| recipes.get(function)).is_some_and(|recipe| recipe.steps.len() == 1)
+    }
+
     /// A net of a loop that is driven later.
     fn kept(&mut self, name: String, start: bool) -> NetId {
         let id = self.netlist.add_wire(name, Some(start), None);

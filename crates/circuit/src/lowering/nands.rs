@@ -15,6 +15,13 @@ struct Forces {
     stay: Option<NetId>,
 }
 
+/// The cells that let data into a latch.
+#[derive(Clone, Copy)]
+struct Guard {
+    enable: NetId,
+    function: Function,
+}
+
 impl Lowering<'_> {
     /// The net that shows the register. An edge takes two latches: the second one is open where the register shows
     /// what the first one has kept since the clock had its other value.
@@ -22,17 +29,28 @@ impl Lowering<'_> {
         let [data, clock] = [pins[0], pins[1]];
         let start = register.starts_at();
         let forces = self.forces(register, &pins[2..]);
+        let on = Guard { enable: clock, function: Function::NAND };
         if register.kind == RegisterKind::High {
-            return self.latch(name, [data, clock], start, forces);
+            return self.latch(name, data, on, start, forces);
         }
-        let opposite = self.inverse(clock);
+        let off = self.guard_at_zero(clock);
         let (first, second) = match register.kind {
-            RegisterKind::High | RegisterKind::Low => return self.latch(name, [data, opposite], start, forces),
-            RegisterKind::Rising => (opposite, clock),
-            RegisterKind::Falling => (clock, opposite),
+            RegisterKind::High | RegisterKind::Low => return self.latch(name, data, off, start, forces),
+            RegisterKind::Rising => (off, on),
+            RegisterKind::Falling => (on, off),
         };
-        let held = self.latch(&format!("{name}.held"), [data, first], start, forces);
-        self.latch(name, [held, second], start, forces)
+        let held = self.latch(&format!("{name}.held"), data, first, start, forces);
+        self.latch(name, held, second, start, forces)
+    }
+
+    /// The guard of a latch that is open while a clock is 0. Where one cell does it, it reads the clock itself, so that
+    /// both latches of an edge see it at once.
+    fn guard_at_zero(&mut self, clock: NetId) -> Guard {
+        let function = Function::NAND.with_input_inverted(1);
+        if self.is_one_cell(function) {
+            return Guard { enable: clock, function };
+        }
+        Guard { enable: self.inverse(clock), function: Function::NAND }
     }
 
     fn forces(&mut self, register: &RegisterNode, nets: &[NetId]) -> Forces {
@@ -51,9 +69,9 @@ impl Lowering<'_> {
 
     /// Four cells and one for each force, and the net that follows the data. The reset branch reads the set branch, so
     /// no inverter races it.
-    fn latch(&mut self, name: &str, [data, enable]: [NetId; 2], start: bool, forces: Forces) -> NetId {
-        let set = self.gate(Function::NAND, &[data, enable]);
-        let clear = self.gate(Function::NAND, &[set, enable]);
+    fn latch(&mut self, name: &str, data: NetId, guard: Guard, start: bool, forces: Forces) -> NetId {
+        let set = self.gate(guard.function, &[data, guard.enable]);
+        let clear = self.gate(guard.function, &[set, guard.enable]);
         let opposite = self.kept(format!("{name}.n"), !start);
         let back = self.passed(format!("{name}.down"), !start, opposite, forces.stay);
         let shown = self.gate(Function::NAND, &[set, back]);

@@ -187,7 +187,7 @@ fn registers_are_of_few_cells() {
     for start in [false, true] {
         let of = |forcing, kind| count(forcing, kind, start, RegisterForm::Nands);
         let cells = FORCINGS.map(|forcing| [of(forcing, RegisterKind::High), of(forcing, RegisterKind::Rising)]);
-        assert_eq!(cells, [[4, 9], [7, 13], [10, 17]]);
+        assert_eq!(cells, [[4, 8], [7, 12], [10, 16]]);
         let of = |kind| count(Forcing::Never, kind, start, RegisterForm::Multiplexers);
         assert_eq!([of(RegisterKind::Low), of(RegisterKind::Falling)], [1, 2]);
     }

@@ -65,6 +65,13 @@ pub const ORDER: &[Pass] = &[
     }),
 ];
 
+/// The passes over logic. They keep all registers that an output depends on.
+pub(crate) fn simplify(netlist: &mut Netlist) {
+    fold_constants(netlist);
+    share(netlist);
+    sweep(netlist);
+}
+
 pub fn run(netlist: &mut Netlist) -> Result<(), NetlistError> {
     ORDER.iter().try_for_each(|pass| (pass.run)(netlist))
 }

@@ -5,7 +5,7 @@ use crate::check::wording::{self, at_use};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::source::{ForeignCircuit, SourceFile, SourceWorld, Span, VerilogModule};
 use nbc_circuit::correspondence;
-use nbc_circuit::formats::{CircuitSource, Design, Register, aiger, bench, blif, is_word, nb, pla, verilog_module};
+use nbc_circuit::formats::{CircuitSource, Design, aiger, bench, blif, is_word, nb, pla, verilog_module};
 
 pub(super) struct Foreign<'a> {
     pub(super) world: &'a dyn SourceWorld,
@@ -22,11 +22,11 @@ pub(super) struct ForeignDesign {
 
 impl Foreign<'_> {
     pub(super) fn bench(&self, source: &SourceFile) -> Result<String, Vec<Diagnostic>> {
-        self.circuit(&self.titled(bench::read(&source.text, source.id, Some(Register::CLOCK))?))
+        self.circuit(&self.titled(bench::read(&source.text, source.id, Some(Design::CLOCK))?))
     }
 
     pub(super) fn blif(&self, source: &SourceFile) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
-        let text = self.circuit(&blif::read(&source.text, source.id, Some(Register::CLOCK))?)?;
+        let text = self.circuit(&blif::read(&source.text, source.id, Some(Design::CLOCK))?)?;
         Ok((text, blif::ignored(&source.text, source.id)))
     }
 
@@ -56,27 +56,27 @@ impl Foreign<'_> {
     pub(super) fn aiger(&self) -> Result<String, Vec<Diagnostic>> {
         let unreadable = |error| vec![wording::unreadable_use(self.name, &error, &Suggestion::None, self.place)];
         let bytes = self.world.read_bytes(self.name).map_err(unreadable)?;
-        let design = aiger::read(&bytes, Some(Register::CLOCK)).map_err(|fault| vec![at_use(fault, self.place)])?;
+        let design = aiger::read(&bytes, Some(Design::CLOCK)).map_err(|fault| vec![at_use(fault, self.place)])?;
         self.circuit(&self.titled(design))
     }
 
     /// For formats without names of circuits.
     fn titled(&self, mut design: Design) -> Design {
         let file = self.name.rsplit('/').next().unwrap_or(self.name);
-        design.logic.name = file.rsplit_once('.').map_or(file, |(stem, _)| stem).to_owned();
+        design.netlist.name = file.rsplit_once('.').map_or(file, |(stem, _)| stem).to_owned();
         design
     }
 
     fn module(&self, module: &VerilogModule, files: &[&SourceFile]) -> Result<Design, Vec<Diagnostic>> {
         self.legal(&module.name)?;
-        let design = verilog_module(module, files, Some(Register::CLOCK));
+        let design = verilog_module(module, files, Some(Design::CLOCK));
         design.map_err(|faults| faults.into_iter().map(|fault| at_use(fault, self.place)).collect())
     }
 
     fn circuit(&self, design: &Design) -> Result<String, Vec<Diagnostic>> {
-        let name = &design.logic.name;
+        let name = &design.netlist.name;
         self.legal(name)?;
-        if design.outputs() == 0 {
+        if design.netlist.outputs().is_empty() {
             return Err(vec![wording::no_outputs(name, self.place)]);
         }
         Ok(nb::write(&correspondence::reduce(design).0))

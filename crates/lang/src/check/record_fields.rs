@@ -29,7 +29,7 @@ use Holds::{Function, Name, NameOr, Record, Value, Word};
 const ALWAYS: &[Fact] = &[];
 const ACTUATOR: &[Fact] = &[("kind", "actuator")];
 const SENSOR: &[Fact] = &[("kind", "sensor")];
-const DRAWN: &[Fact] = &[("start", ""), ("missed", ""), ("dead", "")];
+const DRAWN: &[Fact] = &[("start", ""), ("missed", ""), ("dead", ""), ("phase", ""), ("drift", "")];
 const HOLDS: &[Fact] = &[("registers", "master_slave"), ("registers", "mux")];
 const WAVES: &[Fact] = &[("registers", "waves")];
 const NETWORKS: &[Fact] = &[("genome", "cppn")];
@@ -69,7 +69,10 @@ const RECORDS: [(&str, &[RecordField]); 8] = [
             field("missed", Value, ALWAYS),
             field("weak", Value, ALWAYS),
             field("dead", Value, ALWAYS),
+            field("phase", Value, ALWAYS),
+            field("drift", Value, ALWAYS),
             field("seed", Value, DRAWN),
+            field("hears", Word(&["always", "cycle"]), ALWAYS),
             field("ground", Value, ALWAYS),
         ],
     ),
@@ -157,6 +160,8 @@ const RECORDS: [(&str, &[RecordField]); 8] = [
             field("missed", Value, ALWAYS),
             field("weak", Value, ALWAYS),
             field("dead", Value, ALWAYS),
+            field("phase", Value, ALWAYS),
+            field("drift", Value, ALWAYS),
         ],
     ),
 ];

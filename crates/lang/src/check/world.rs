@@ -9,7 +9,7 @@ use crate::check::quantity;
 use crate::check::wording;
 use crate::syntax::tree::{NameSyntax, RecordDeclaration, ValueKind, ValueSyntax};
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{GroundProfile, NamedWorld, PhysicsWorld, Variation, WorldFactors, WorldNoise};
+use nbc_base::model::{GroundProfile, Hears, NamedWorld, PhysicsWorld, Variation, WorldFactors, WorldNoise};
 use nbc_base::source::{SourceWorld, Sources, Span};
 
 #[derive(Clone, Copy)]
@@ -71,6 +71,8 @@ pub(crate) fn world(
         missed: fields.read("missed", base.noise.missed, share),
         weak: fields.read("weak", base.noise.weak, share),
         dead: fields.read("dead", base.noise.dead, share),
+        phase: fields.read("phase", base.noise.phase, share),
+        drift: fields.read("drift", base.noise.drift, |value| ratio(value, 0.0..=WorldNoise::MOST_DRIFT)),
         seed: fields.read("seed", base.noise.seed, |value| match &value.kind {
             ValueKind::Quantity(seed) => quantity::seed(seed),
             _ => Err(wording::wrong_kind(wording::NUMBER, value.span)),
@@ -79,16 +81,18 @@ pub(crate) fn world(
     if !whole || !fields.faults.is_empty() {
         fields.note_fault();
     }
-    for (field, amount) in [("start", noise.start), ("missed", noise.missed), ("dead", noise.dead)] {
+    let WorldNoise { start, missed, dead, phase, drift, .. } = noise;
+    for (field, amount) in [("start", start), ("missed", missed), ("dead", dead), ("phase", phase), ("drift", drift)] {
         if amount > 0.0 {
             fields.note(field, "");
         }
     }
+    let hears = fields.choose("hears", base.hears, &[("cycle", Hears::Cycle), ("always", Hears::Always)]);
     let ground = fields.read("ground", base.ground, |value| ground(value, files));
     let found = fields.finish();
     let sound = found.is_empty() && whole;
     faults.extend(found);
-    let world = PhysicsWorld { factors, noise, ground };
+    let world = PhysicsWorld { factors, noise, ground, hears };
     let named = || NamedWorld { name: source.name.text.clone(), world };
     if sound { CheckState::Sound(Box::new(named())) } else { CheckState::Faulty }
 }

@@ -23,6 +23,7 @@ pub(super) use written::{CALLS, WrittenProgram};
 
 use crate::refusal::Refusal;
 use nbc_session::DecidedClaim;
+use nbc_swarm::TestVerdict;
 
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -45,6 +46,11 @@ pub(super) enum ServerMessage {
     Progress {
         id: u64,
         progress: [u64; 2],
+    },
+    /// The verdicts of a test over the rows so far.
+    Found {
+        id: u64,
+        found: Vec<TestVerdict>,
     },
     Event(PlayEvent),
 }

@@ -52,6 +52,9 @@ pub trait Flock: Debug + Send {
 
     fn clock(&self, i: usize) -> u32;
 
+    /// Sets the actuation clock of robot `i`, in env steps.
+    fn set_clock(&mut self, i: usize, clock: u32);
+
     fn lattice(&self, i: usize) -> &Lattice;
 
     /// The positions of the points of robot `i`, in voxels, in the order of [`Lattice::points`].

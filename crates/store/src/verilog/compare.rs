@@ -32,7 +32,7 @@ impl ModuleComparison {
                 Self { second: SecondReading::Different, difference: Some(Told::of(&one).run(&runs)) }
             }
             Likeness::Doubtful { steps, inputs, state, outputs } => {
-                let registers: Vec<String> = one.registers.iter().map(|register| register.name.clone()).collect();
+                let registers: Vec<String> = one.netlist.registers().map(|(id, _)| one.netlist.net_name(id)).collect();
                 let told = Told::of(&one);
                 let state = values(&buses(&registers, &one.ascending), &state);
                 let (inputs, outputs) = (values(&told.inputs, &inputs), told.outputs(&outputs));
@@ -54,13 +54,8 @@ struct Told {
 
 impl Told {
     fn of(design: &Design) -> Self {
-        let logic = &design.logic;
-        let ports = |ids: &[NetId]| {
-            let names: Vec<String> = ids.iter().map(|&id| logic.net_name(id)).collect();
-            buses(&names, &design.ascending)
-        };
-        let (inputs, outputs) = (&logic.inputs()[..design.inputs()], &logic.outputs()[..design.outputs()]);
-        Self { inputs: ports(inputs), outputs: ports(outputs) }
+        let ports = |ids: &[NetId]| buses(&design.netlist.net_names(ids), &design.ascending);
+        Self { inputs: ports(design.netlist.inputs()), outputs: ports(design.netlist.outputs()) }
     }
 
     /// The last steps of two runs, and what differs in the end.

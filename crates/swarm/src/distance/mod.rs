@@ -190,7 +190,7 @@ mod tests {
 
     #[test]
     fn what_is_left_out_changes_no_archive() {
-        let noise = WorldNoise { missed: 0.3, start: 0.4, weak: 0.1, dead: 0.1, seed: 2 };
+        let noise = WorldNoise { missed: 0.3, start: 0.4, weak: 0.1, dead: 0.1, seed: 2, ..WorldNoise::default() };
         let noisy = PhysicsWorld { noise, ..PhysicsWorld::default() };
         let longer = [(0, 200), (3, 50), (1, 84), (2, 130)];
         let shorter = [(0, 42), (1, 84), (0, 84)];

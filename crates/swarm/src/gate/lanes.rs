@@ -1,13 +1,14 @@
 //! The patterns of the simulations of gates, cycle by cycle, and the worth of margins: numbers between 0 and 1 in which
 //! one half means that the worst cycle stands still.
 
+use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
 use rand_chacha::ChaCha8Rng;
 
 use crate::holds::HoldPlan;
 use crate::noise::RobotNoise;
-use nbc_base::model::{Pattern, PhysicsWorld};
+use nbc_base::model::{CYCLE_STEPS, Pattern, PhysicsWorld};
 
 pub(super) const HOLD: usize = 4;
 
@@ -31,6 +32,19 @@ pub(super) fn sensed(world: &PhysicsWorld, lane: usize, cycles: &Lane) -> Lane {
         sensed[cycle] = sensed[cycle - 1];
     }
     sensed
+}
+
+/// The parts of a cycle, in env steps, with what each lane senses in them.
+pub(super) fn stretches(world: &PhysicsWorld, first: usize, lanes: &[Lane], cycle: usize) -> Vec<(u32, Vec<Pattern>)> {
+    let late = |lane| RobotNoise::new(&world.noise, first + lane).delay(cycle);
+    let late: Vec<u32> = (0..lanes.len()).map(late).collect();
+    let starts: BTreeSet<u32> = late.iter().copied().chain([0]).collect();
+    let ends = starts.iter().copied().skip(1).chain([CYCLE_STEPS]);
+    let sensed = |start: u32| {
+        let at = |(lane, late): (&Lane, &u32)| lane[if start < *late { cycle - 1 } else { cycle }];
+        lanes.iter().zip(&late).map(at).collect()
+    };
+    starts.iter().zip(ends).map(|(&start, end)| (end - start, sensed(start))).collect()
 }
 
 /// The margin, in voxels per cycle, that scores halfway between zero and infinite margin.

@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::Work;
 use crate::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask, setting};
 use crate::evolve::{CandidateOutcome, Scores};
-use crate::gate::lanes::{HOLD, Lane, sensed, starts};
+use crate::gate::lanes::{HOLD, Lane, sensed, starts, stretches};
 use crate::holds::PatternHold;
 use crate::noise::RobotNoise;
 use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Displacements, Pattern, PhysicsWorld, SearchObjective};
@@ -76,8 +76,9 @@ fn try_lanes(simulator: &Simulator, world: &PhysicsWorld, attempts: &mut [Attemp
     let mut flock = simulator.flock(&setting(world), &bodies);
     for cycle in 0..lanes[0].len() {
         let before: Vec<f64> = (0..flock.len()).map(|i| flock.center(i)[0]).collect();
-        let patterns: Vec<Pattern> = open.iter().flat_map(|_| sensed.iter().map(|lane| lane[cycle])).collect();
-        flock.advance(&patterns, CYCLE_STEPS);
+        for (steps, patterns) in stretches(world, first, &sensed, cycle) {
+            flock.advance(&patterns.repeat(open.len()), steps);
+        }
         for (i, attempt) in open.iter_mut().enumerate() {
             attempt.env_steps += lanes.len() as u64 * u64::from(CYCLE_STEPS);
             for (lane, place) in (i * lanes.len()..).take(lanes.len()).enumerate() {

@@ -106,6 +106,10 @@ impl Flock for LaneFlock {
         self.run(i).clock
     }
 
+    fn set_clock(&mut self, i: usize, clock: u32) {
+        self.run_mut(i).clock = clock;
+    }
+
     fn lattice(&self, i: usize) -> &Lattice {
         &self.run(i).lattice
     }

@@ -207,6 +207,10 @@ impl Flock for DeviceFlock {
         self.runs[i].clock
     }
 
+    fn set_clock(&mut self, i: usize, clock: u32) {
+        self.runs[i].clock = clock;
+    }
+
     fn lattice(&self, i: usize) -> &Lattice {
         &self.runs[i].lattice
     }
