@@ -145,14 +145,18 @@ impl Frame {
         }
     }
 
-    /// The bits of the outputs in the last cycle of the log, of a swarm with fewer than nine bits of each kind.
+    /// The bytes of a cycle of the log, of a swarm with fewer than nine bits of each kind and one clock.
+    pub(super) fn length(&self) -> usize {
+        5 + 4 * self.robots
+    }
+
+    /// The bits of the outputs in the last cycle of the log.
     pub(super) fn outputs(&self) -> u8 {
-        let length = 3 + 4 * self.robots;
-        self.rest[(usize::from(self.cycles) - 1) * length + 2]
+        self.rest[(usize::from(self.cycles) - 1) * self.length() + 2]
     }
 
     pub(super) fn poses(&self) -> &[u8] {
-        &self.rest[usize::from(self.cycles) * (3 + 4 * self.robots)..]
+        &self.rest[usize::from(self.cycles) * self.length()..]
     }
 }
 

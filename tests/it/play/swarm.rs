@@ -103,8 +103,7 @@ fn a_clock_changes_an_input_by_itself_and_a_swarm_runs_at_its_pace() {
     let mut inputs = Vec::new();
     while inputs.len() < 12 {
         let frame = page.frame(|frame| frame.cycles > 0);
-        let length = 3 + 4 * frame.robots;
-        inputs.extend(frame.rest.chunks_exact(length).take(frame.cycles.into()).map(|cycle| cycle[0]));
+        inputs.extend(frame.rest.chunks_exact(frame.length()).take(frame.cycles.into()).map(|cycle| cycle[0]));
     }
     assert_eq!(inputs[..12], [0, 0, 0, 2, 2, 2, 0, 0, 0, 2, 2, 2]);
     page.done(json!({ "do": "pause" }));

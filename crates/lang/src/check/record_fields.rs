@@ -227,6 +227,8 @@ schedule spots(spot) { left for 9 steps right for 9 steps }
             ("world", "from") => ["paper", "rough"],
             ("world", "seed") => ["2", "3"],
             ("world", "ground") => ["[0, 1]", "[0, 2]"],
+            ("world", "hears") => ["cycle", "always"],
+            ("world" | "variation", "drift") => ["1%", "2%"],
             ("evolution", "from") => ["gates", "other"],
             ("library", "from") => ["shipped", "three"],
             (_, "behaviors") => ["[nand]", "[xor]"],

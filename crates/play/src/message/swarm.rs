@@ -47,8 +47,8 @@ pub(crate) struct ShownSwarm {
     pub(crate) ground: Vec<Vec<u8>>,
     /// Poses in a cycle.
     pub(crate) frames: u32,
-    /// For each robot, the env steps by which its own cycles are ahead at the start and the millionths by which they are
-    /// faster; none with a common clock.
+    /// For each robot, the env steps by which its own cycles are ahead at the start and the millionths by which they
+    /// are faster; none with a common clock.
     pub(crate) own_clocks: Vec<(u32, i32)>,
     pub(crate) waves: Option<ShownWaves>,
     pub(crate) script: Option<ShownScript>,
