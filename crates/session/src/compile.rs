@@ -107,13 +107,19 @@ pub(super) fn map(
         RegisterStyle::Mux if has_multiplexers(&cells) => map(source, RegisterForm::Multiplexers),
         RegisterStyle::Mux => Err(vec![for_circuit(wording::no_multiplexer(), place)]),
         RegisterStyle::Waves => {
-            if plan.world.world.lateness() > 0 {
-                return Err(vec![for_circuit(wording::waves_need_a_beat(&plan.world.name), place)]);
-            }
+            need_beat(std::slice::from_ref(&plan.world), place)?;
             permit(&source, gates, place)?;
             let mapping = map_waves(source, &plan.library, plan.waves, options);
             mapping.map_err(|fault| vec![for_circuit(fault, place)])
         }
+    }
+}
+
+/// Wave machines run only in worlds in which all robots are heard at one time.
+pub(super) fn need_beat(worlds: &[NamedWorld], place: Span) -> Result<(), Vec<Diagnostic>> {
+    match worlds.iter().find(|world| world.world.lateness() > 0) {
+        Some(world) => Err(vec![for_circuit(wording::waves_need_a_beat(&world.name), place)]),
+        None => Ok(()),
     }
 }
 

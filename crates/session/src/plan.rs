@@ -74,6 +74,7 @@ pub(super) fn of_swarm(
 }
 
 impl Plan {
+    /// Where robots are heard in their own time, their clocks are longer.
     pub(super) fn in_world(mut self, world: NamedWorld) -> Self {
         for robot in &mut self.library.robots {
             let clock = &mut robot.character.clock;

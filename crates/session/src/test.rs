@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::compile::{Compiled, compile};
+use crate::compile::{Compiled, compile, need_beat};
 use crate::contents::declared_file;
 use crate::equivalence::Equivalence;
 use crate::hold;
@@ -120,6 +120,7 @@ pub(super) fn cases(
         };
         let timing = match &compiled.mapping.waves {
             Some(machine) => {
+                need_beat(&worlds, test.span)?;
                 rows = if performance.is_some() { edges_only(rows, machine) } else { rows };
                 rows = steps(test, &rows, machine.clock, Some(machine.cycles_per_step() as u32))?;
                 permit_cycles(test, machine.cycles(rows.len()) as u64)?;

@@ -11,7 +11,8 @@ use nbc_sim::Flock;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Hearing {
     clocks: Vec<OwnClock>,
-    pub is_common: bool,
+    /// Whether no clock is ahead or drifts.
+    pub clocks_agree: bool,
     hears: Hears,
     /// Cycles over which a displacement is measured.
     window: usize,
@@ -31,8 +32,8 @@ impl Hearing {
         let clocks: Vec<OwnClock> = (0..flock.len()).map(clock).collect();
         let place = |robot| Heard { output: false, places: [flock.center(robot)[0]].into() };
         let heard = (0..flock.len()).map(place).collect();
-        let is_common = clocks.iter().all(|clock| *clock == OwnClock::default());
-        let hearing = Self { clocks, is_common, hears: assembly.world.hears, window, heard };
+        let clocks_agree = clocks.iter().all(|clock| *clock == OwnClock::default());
+        let hearing = Self { clocks, clocks_agree, hears: assembly.world.hears, window, heard };
         hearing.wind(flock, 0);
         hearing
     }
@@ -43,7 +44,7 @@ impl Hearing {
 
     /// Whether outputs change only where a cycle of the world ends.
     pub fn is_common(&self) -> bool {
-        self.is_common && self.hears == Hears::Cycle
+        self.clocks_agree && self.hears == Hears::Cycle
     }
 
     /// The env steps of the cycle that begins at `start` at whose end an output is read or a clock is set.
@@ -60,7 +61,7 @@ impl Hearing {
     }
 
     pub fn wind(&self, flock: &mut dyn Flock, env_step: u32) {
-        if self.is_common {
+        if self.clocks_agree {
             return;
         }
         for (robot, clock) in self.clocks.iter().enumerate().filter(|(_, clock)| clock.rate != 0 || env_step == 0) {

@@ -67,7 +67,7 @@ impl LiveSwarm {
         self.forgotten + self.trace.cycles.len()
     }
 
-    /// Keeps the cycles on which the next outputs depend, so that a swarm may run for any time in the same memory.
+    /// Forgets all cycles but the last one, so that a swarm may run for any time in the same memory.
     pub fn forget(&mut self) {
         let past = self.trace.cycles.len().saturating_sub(1);
         self.trace.forget_first(past);
@@ -299,9 +299,9 @@ mod tests {
     fn robots_that_are_read_one_by_one_have_the_bits_of_those_that_are_read_together() {
         for simulator in simulators() {
             let assembly = ring(4, PhysicsWorld::default());
-            let trace = |is_common: bool| {
+            let trace = |clocks_agree: bool| {
                 let mut swarm = LiveSwarm::new(&simulator, &assembly, 6, 1, None);
-                swarm.hearing.is_common &= is_common;
+                swarm.hearing.clocks_agree &= clocks_agree;
                 run(&mut swarm, 0..6);
                 swarm.into_trace()
             };
