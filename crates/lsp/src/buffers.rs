@@ -1,4 +1,4 @@
-//! The texts that are open in the editor.
+//! The texts that are open in the editor. The session has them.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,6 @@ pub(super) struct Buffer {
     pub(super) uri: Uri,
     pub(super) path: String,
     pub(super) version: i32,
-    pub(super) text: String,
 }
 
 #[derive(Default)]
@@ -22,32 +21,13 @@ pub(super) struct Buffers {
 }
 
 impl Buffers {
-    pub(super) fn open(&mut self, uri: Uri, version: i32, text: String) -> &Buffer {
+    pub(super) fn open(&mut self, uri: Uri, version: i32) -> &Buffer {
         let path = name(&uri);
-        let buffer = Buffer { uri, path: path.clone(), version, text };
-        self.open.entry(path).insert_entry(buffer).into_mut()
+        self.open.entry(path.clone()).insert_entry(Buffer { uri, path, version }).into_mut()
     }
 
-    pub(super) fn change(
-        &mut self,
-        uri: &Uri,
-        version: i32,
-        changes: Vec<TextDocumentContentChangeEvent>,
-        encoding: Encoding,
-    ) -> Option<&Buffer> {
+    pub(super) fn change(&mut self, uri: &Uri, version: i32) -> Option<&Buffer> {
         let buffer = self.open.get_mut(&name(uri))?;
-        for change in changes {
-            match change {
-                TextDocumentContentChangeEvent::TextDocumentContentChangePartial(change) => {
-                    let starts = LineStarts::of(&buffer.text);
-                    let bytes = Lines { text: &buffer.text, starts: &starts, encoding }.bytes(change.range);
-                    buffer.text.replace_range(bytes, &change.text);
-                }
-                TextDocumentContentChangeEvent::TextDocumentContentChangeWholeDocument(change) => {
-                    buffer.text = change.text;
-                }
-            }
-        }
         buffer.version = version;
         Some(buffer)
     }
@@ -60,12 +40,23 @@ impl Buffers {
         self.open.get(&name(uri))
     }
 
-    pub(super) fn at(&self, path: &str) -> Option<&Buffer> {
-        self.open.get(path)
+    pub(super) fn has(&self, path: &str) -> bool {
+        self.open.contains_key(path)
     }
 
     pub(super) fn iter(&self) -> impl Iterator<Item = &Buffer> {
         self.open.values()
+    }
+}
+
+pub(super) fn change(text: &mut String, change: TextDocumentContentChangeEvent, encoding: Encoding) {
+    match change {
+        TextDocumentContentChangeEvent::TextDocumentContentChangePartial(change) => {
+            let starts = LineStarts::of(text);
+            let bytes = Lines { text, starts: &starts, encoding }.bytes(change.range);
+            text.replace_range(bytes, &change.text);
+        }
+        TextDocumentContentChangeEvent::TextDocumentContentChangeWholeDocument(change) => *text = change.text,
     }
 }
 

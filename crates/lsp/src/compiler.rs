@@ -95,10 +95,9 @@ impl Compiler {
         self.known.insert(key, (checked, figures));
     }
 
-    /// If a source has changed, only the thread still has a reference to it.
-    pub(super) fn cancel_stale(&mut self) {
+    pub(super) fn cancel_stale<'a>(&mut self, current: impl Iterator<Item = &'a Weak<Checked>> + Clone) {
         self.flags.retain(|(checked, flag)| {
-            let is_stale = checked.strong_count() <= 1;
+            let is_stale = current.clone().all(|known| !known.ptr_eq(checked));
             if is_stale {
                 flag.raise();
             }

@@ -49,7 +49,7 @@ impl Server {
     fn sources_of(&mut self, checked: &Checked, found: NameUse) -> Vec<Arc<Checked>> {
         let home = checked.sources.file(found.declared.file);
         let mut paths = self.all_paths();
-        let used = UsedFiles::of(&*self.world, &self.buffers, paths.clone());
+        let used = UsedFiles::of(&self.session, &*self.world, &self.buffers, paths.clone());
         let homes = match self.files(checked).prelude(home.id) {
             // Every source uses the prelude.
             Some(_) => used.with(checked.sources.text(found.declared)),
@@ -77,7 +77,7 @@ impl Server {
     fn as_it_is(&mut self, path: &str) -> Arc<Checked> {
         let checked = self.session.checked(path);
         let known = checked.file.map(|file| checked.sources.file(file).text.as_str());
-        if self.buffers.at(path).is_some() || self.world.read(path).ok().as_deref() == known {
+        if self.buffers.has(path) || self.world.read(path).ok().as_deref() == known {
             return checked;
         }
         self.session.close(path);
@@ -118,7 +118,7 @@ impl Server {
     ) -> Result<WorkspaceEdit, RequestError> {
         let mut rename = Rename::new(&self.files(checked), found, new, (self.world.clone(), self.shell.clone()));
         self.sources_of(checked, found).into_iter().for_each(|source| rename.add(source));
-        rename.finish(&self.buffers)
+        rename.finish(&self.buffers, &self.session)
     }
 
     pub(super) fn rename(&mut self, asked: lsp::RenameParams) -> Reply<RenameRequest> {

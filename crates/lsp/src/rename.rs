@@ -76,10 +76,10 @@ impl<'a> Rename<'a> {
     }
 
     /// Refuses a name that causes an error, or that changes the meaning of another name.
-    pub(super) fn finish(self, buffers: &Buffers) -> Result<WorkspaceEdit, RequestError> {
+    pub(super) fn finish(self, buffers: &Buffers, open: &Session) -> Result<WorkspaceEdit, RequestError> {
         let mut session = Session::new(self.world.clone());
         for buffer in buffers.iter() {
-            session.update(&buffer.path, 0, buffer.text.clone());
+            session.update(&buffer.path, 0, open.text(&buffer.path).unwrap_or_default());
         }
         for (name, file) in &self.files {
             let path = uri::path(&Uri(name.clone())).unwrap_or_else(|| name.clone());

@@ -1,8 +1,8 @@
 //! The language service: it receives messages, changes buffers, and sends answers and diagnostics.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Weak};
 
 use core::time::Duration;
 
@@ -13,7 +13,7 @@ use gen_lsp_types::{
 };
 use lsp_server::{Message, Notification, Request, Response};
 
-use crate::buffers::Buffers;
+use crate::buffers::{self, Buffers};
 use crate::capabilities::{Abilities, Client, capabilities};
 use crate::compiler::{Compilation, Compiler};
 use crate::files::Files;
@@ -116,7 +116,10 @@ pub(super) struct Server {
     pub(super) compiler: Compiler,
     pub(super) waiting: Vec<WaitingHover>,
     pub(super) runs: Runs,
-    published: BTreeMap<String, (Arc<Checked>, BTreeSet<String>)>,
+    /// The files that each source has diagnostics in.
+    published: BTreeMap<String, (Weak<Checked>, BTreeSet<String>)>,
+    /// A notification has come since the diagnostics were published.
+    is_noticed: bool,
 }
 
 pub(super) type Reply<R> = Result<<R as lsp::Request>::Result, RequestError>;
@@ -141,6 +144,7 @@ impl Server {
             waiting: Vec::new(),
             runs: Runs::new(shell.clone()),
             published: BTreeMap::new(),
+            is_noticed: false,
             world,
             shell,
         }
@@ -237,6 +241,7 @@ impl Server {
     }
 
     fn notice(&mut self, notification: Notification) {
+        self.is_noticed = true;
         fn read<N: lsp::Notification>(notification: Notification) -> Option<N::Params> {
             serde_json::from_value(notification.params).ok()
         }
@@ -245,16 +250,18 @@ impl Server {
             LspNotificationMethod::TextDocumentDidOpen => {
                 let Some(opened) = read::<lsp::DidOpenTextDocumentNotification>(notification) else { return };
                 let document = opened.text_document;
-                let buffer = self.buffers.open(document.uri, document.version, document.text);
+                let buffer = self.buffers.open(document.uri, document.version);
                 self.session.close(&buffer.path);
-                self.session.update(&buffer.path, revision(buffer.version), buffer.text.clone());
+                self.session.update(&buffer.path, 0, document.text);
             }
             LspNotificationMethod::TextDocumentDidChange => {
                 let Some(changed) = read::<lsp::DidChangeTextDocumentNotification>(notification) else { return };
                 let (id, changes) = (changed.text_document, changed.content_changes);
                 let uri = id.text_document_identifier.uri;
-                let Some(buffer) = self.buffers.change(&uri, id.version, changes, self.encoding) else { return };
-                self.session.update(&buffer.path, revision(buffer.version), buffer.text.clone());
+                let Some(buffer) = self.buffers.change(&uri, id.version) else { return };
+                let mut text = self.session.text(&buffer.path).unwrap_or_default();
+                changes.into_iter().for_each(|change| buffers::change(&mut text, change, self.encoding));
+                self.session.update(&buffer.path, 0, text);
             }
             LspNotificationMethod::TextDocumentDidClose => {
                 let Some(closed) = read::<lsp::DidCloseTextDocumentNotification>(notification) else { return };
@@ -302,13 +309,17 @@ impl Server {
     }
 
     fn publish(&mut self) {
+        if !std::mem::take(&mut self.is_noticed) {
+            return;
+        }
         let open: Vec<_> = self.buffers.iter().map(|buffer| (buffer.path.clone(), buffer.version)).collect();
         for (path, version) in open {
             let checked = self.session.checked(&path);
             let known = self.published.get(&path);
             // A check that was cut short is done again soon. Until then the last diagnostics stay.
             let is_whole = self.session.is_checked(&path);
-            if !is_whole || known.is_some_and(|(known, _)| Arc::ptr_eq(known, &checked)) {
+            self.is_noticed |= !is_whole;
+            if !is_whole || known.is_some_and(|(known, _)| known.as_ptr() == Arc::as_ptr(&checked)) {
                 continue;
             }
             let files = self.files(&checked);
@@ -321,9 +332,9 @@ impl Server {
             self.tell(own, Some(version), mine);
             found.into_values().for_each(|(uri, list)| self.tell(uri, None, list));
             before.difference(&about).for_each(|uri| self.tell(Uri(uri.clone()), None, Vec::new()));
-            self.published.insert(path, (checked, about));
+            self.published.insert(path, (Arc::downgrade(&checked), about));
         }
-        self.compiler.cancel_stale();
+        self.compiler.cancel_stale(self.published.values().map(|(checked, _)| checked));
     }
 
     pub(super) fn checked(&mut self, uri: &Uri) -> Option<Arc<Checked>> {
@@ -340,11 +351,6 @@ impl Server {
         let published = PublishDiagnosticsParams { uri, version, diagnostics };
         self.send(Message::Notification(Notification::new(method, published)));
     }
-}
-
-/// Editors count up from any number.
-fn revision(version: i32) -> u64 {
-    u64::try_from(version).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -61,8 +61,9 @@ impl Server {
     ) -> Reply<DocumentRangeFormattingRequest> {
         let Some(buffer) = self.buffers.get(&asked.text_document.uri) else { return Ok(None) };
         let Ok(formatted) = self.session.formatted(&buffer.path) else { return Ok(None) };
-        let starts = LineStarts::of(&buffer.text);
-        let lines = Lines { text: &buffer.text, starts: &starts, encoding: self.encoding };
+        let text = self.session.text(&buffer.path).unwrap_or_default();
+        let starts = LineStarts::of(&text);
+        let lines = Lines { text: &text, starts: &starts, encoding: self.encoding };
         Ok(Some(layout::edits(&lines, &formatted, lines.bytes(asked.range))))
     }
 
@@ -73,9 +74,9 @@ impl Server {
         if formatted.is_canonical {
             return Ok(Some(Vec::new()));
         }
-        let starts = LineStarts::of(&buffer.text);
-        let lines = Lines { text: &buffer.text, starts: &starts, encoding: self.encoding };
-        let range = lines.range(0..buffer.text.len());
+        let text = self.session.text(&buffer.path).unwrap_or_default();
+        let starts = LineStarts::of(&text);
+        let range = Lines { text: &text, starts: &starts, encoding: self.encoding }.range(0..text.len());
         Ok(Some(vec![TextEdit { range, new_text: formatted.text }]))
     }
 }

@@ -6,6 +6,7 @@ use crate::buffers::Buffers;
 use nbc_base::source::SourceWorld;
 use nbc_circuit::rows::RowFormat;
 use nbc_lang::check::{beside, is_usable};
+use nbc_session::Session;
 
 #[derive(Default)]
 pub(super) struct UsedFiles {
@@ -14,15 +15,14 @@ pub(super) struct UsedFiles {
 }
 
 impl UsedFiles {
-    pub(super) fn of(world: &dyn SourceWorld, buffers: &Buffers, mut waiting: Vec<String>) -> Self {
+    pub(super) fn of(session: &Session, world: &dyn SourceWorld, buffers: &Buffers, mut waiting: Vec<String>) -> Self {
         let mut found = Self::default();
         while let Some(path) = waiting.pop() {
             let identity = world.identity(&path);
-            let open = buffers.at(&path).map(|buffer| buffer.text.clone());
-            if found.texts.contains_key(&identity) || (open.is_none() && !path.ends_with(".nb")) {
+            if found.texts.contains_key(&identity) || !(buffers.has(&path) || path.ends_with(".nb")) {
                 continue;
             }
-            let text = open.or_else(|| world.read(&path).ok()).unwrap_or_default();
+            let text = session.text(&path).unwrap_or_default();
             // Any text in quotes may be a path, and any quote may be the first one: a file too many does no harm.
             let is_path = |used: &&str| is_usable(used) || RowFormat::of_path(used).is_some();
             for used in text.split('"').filter(is_path).map(|used| beside(&path, used)) {

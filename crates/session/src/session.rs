@@ -61,6 +61,11 @@ impl Session {
         self.documents.update(path, revision, text);
     }
 
+    /// The text given last, or else that of the world.
+    pub fn text(&self, path: &str) -> Option<String> {
+        self.documents.world().read(path).ok()
+    }
+
     pub fn close(&mut self, path: &str) {
         self.documents.close(path);
     }

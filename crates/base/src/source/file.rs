@@ -8,9 +8,13 @@ pub struct LineStarts(Vec<u32>);
 
 impl LineStarts {
     pub fn of(text: &str) -> Self {
-        let bytes = text.as_bytes();
-        let ends = |at: &usize| bytes[*at] == b'\n' || bytes[*at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
-        Self(std::iter::once(0).chain((0..bytes.len()).filter(ends).map(|at| at as u32 + 1)).collect())
+        let (bytes, mut starts) = (text.as_bytes(), vec![0]);
+        for (at, &byte) in bytes.iter().enumerate() {
+            if byte == b'\n' || byte == b'\r' && bytes.get(at + 1) != Some(&b'\n') {
+                starts.push(at as u32 + 1);
+            }
+        }
+        Self(starts)
     }
 
     pub fn line(&self, offset: usize) -> usize {
