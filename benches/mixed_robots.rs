@@ -98,7 +98,7 @@ fn main() {
         for test in &checked.program.tests {
             let compile = |objective| {
                 let options = CompileOptions { objective, ..CompileOptions::default() };
-                session.compile(&checked, &test.circuit, &options).unwrap()
+                checked.compile(&test.circuit, &options).unwrap()
             };
             let [quick, wide] = [MappingObjective::Delay, MappingObjective::Margin].map(compile);
             let rows = rows(test);

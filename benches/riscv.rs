@@ -52,7 +52,7 @@ fn measure(text: &str, fields: &str, objective: MappingObjective) -> Result<(usi
     let test: &CircuitTest = &checked.program.tests[0];
     let compile = CompileOptions { effort: Effort::Normal, objective, ..CompileOptions::default() };
     let options = TestOptions { level: Some(Level::Physics), compile };
-    let case = session.cases(&checked, test, &options).map_err(|error| error.list[0].message.clone())?.remove(0);
+    let case = checked.cases(test, &options).map_err(|error| error.list[0].message.clone())?.remove(0);
     let holds: Vec<usize> = case.row_holds().iter().map(|row| row.hold).collect();
     let clocks: Vec<usize> = holds.chunks(2).skip(1).map(|pair| pair.iter().sum()).collect();
     let mean = clocks.iter().sum::<usize>() as f64 / clocks.len() as f64;
@@ -65,7 +65,7 @@ fn measure_waves(text: &str, fields: &str) -> Result<(usize, usize, u32), String
     world.insert("m.nb", with_swarm(text, &format!("registers: waves, {fields}")));
     let mut session = Session::new(world);
     let checked = session.open("m.nb").map_err(|error| error.list[0].message.clone())?;
-    let compiled = session.compile(&checked, &"riscv".into(), &CompileOptions::default());
+    let compiled = checked.compile(&"riscv".into(), &CompileOptions::default());
     let compiled = compiled.map_err(|error| error.list[0].message.clone())?;
     let machine = compiled.mapping.waves.as_ref().ok_or("no wave machine")?;
     Ok((compiled.assembly.members.len(), machine.cycles_per_step(), machine.period))

@@ -56,7 +56,7 @@ fn robots(file: &str, circuit: &str, fields: &str) -> Result<usize, String> {
     let choice = Choice { swarm: Some("measured".to_owned()), ..Choice::default() };
     let circuit = checked.circuit(&choice).map_err(told)?;
     let options = CompileOptions { swarm: choice.swarm, ..CompileOptions::default() };
-    Ok(session.compile(&checked, &circuit, &options).map_err(told)?.assembly.members.len())
+    Ok(checked.compile(&circuit, &options).map_err(told)?.assembly.members.len())
 }
 
 /// The cells of each benchmark circuit in two libraries, as `nbc synth --library` finds them.

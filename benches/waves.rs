@@ -92,9 +92,9 @@ impl Form {
             checked.program.tests.iter().find(|test| test.circuit.circuit == circuit).ok_or("no test")?;
         let compile = CompileOptions { effort: Effort::Normal, ..CompileOptions::default() };
         let options = TestOptions { level: Some(Level::Physics), compile };
-        let case = session.cases(&checked, test, &options).map_err(|error| error.list[0].message.clone())?.remove(0);
+        let case = checked.cases(test, &options).map_err(|error| error.list[0].message.clone())?.remove(0);
         let robots = case.robots();
-        let compiled = session.compile(&checked, &circuit.into(), &options.compile).map_err(|e| format!("{e:?}"))?;
+        let compiled = checked.compile(&circuit.into(), &options.compile).map_err(|e| format!("{e:?}"))?;
         if let Some(machine) = &compiled.mapping.waves {
             return Ok(Self { robots, cycles: machine.cycles_per_step() as f64, threads: machine.period });
         }

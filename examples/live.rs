@@ -19,7 +19,7 @@ pub fn converse(input: impl BufRead, output: &mut impl Write) -> Result<(), Box<
     session.update("latch.nb", 1, include_str!("../circuits/latch.nb"));
     let checked = session.open("latch.nb")?;
     let circuit = checked.circuit(&Choice::default())?;
-    let compiled = session.compile(&checked, &circuit, &CompileOptions::default())?;
+    let compiled = checked.compile(&circuit, &CompileOptions::default())?;
     let mut swarm = session.swarm(&compiled);
     let names = swarm.trace().inputs.iter().map(|port| port.name.as_str()).collect::<Vec<_>>().join(" ");
     let width = names.split(' ').count();

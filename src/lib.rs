@@ -18,7 +18,7 @@
 //! let mut session = nbc::Session::new(nbc::MemoryWorld::default());
 //! session.update("a.nb", 1, "circuit f(a) -> (q) { q = not a }");
 //! let checked = session.open("a.nb")?;
-//! let compiled = session.compile(&checked, &"f".into(), &nbc::CompileOptions::default())?;
+//! let compiled = checked.compile(&"f".into(), &nbc::CompileOptions::default())?;
 //! let mut swarm = session.swarm(&compiled);
 //! for _ in 0..compiled.timing.hold + 3 {
 //!     swarm.step(&[true]).unwrap();
@@ -29,7 +29,7 @@
 //!
 //! # Tests and proofs
 //!
-//! [`Session::test`] runs a test, [`Session::prove`] decides the properties of a circuit for all its steps. A refuted
+//! [`Session::test`] runs a test, [`Checked::prove`] decides the properties of a circuit for all its steps. A refuted
 //! property has a test that shows it.
 //!
 //! ```
@@ -37,7 +37,7 @@
 //! session.update("a.nb", 1, "circuit f(a) -> (q) { q = not a }\nprove f {\n    never a and q\n    never q\n}");
 //! let checked = session.open("a.nb")?;
 //! let (claim, budget) = (&checked.program.claims[0], nbc::SearchBudget::default());
-//! let mut search = session.prove(&checked, claim, budget, nbc::CancelFlag::default())?;
+//! let mut search = checked.prove(claim, budget, nbc::CancelFlag::default())?;
 //! while search.advance(&mut ()) {}
 //! let decided = search.finish();
 //! assert_eq!([0, 1].map(|property| decided.properties[property].verdict), ["proved", "refuted"]);
@@ -52,7 +52,7 @@
 //! # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
 //! session.update("a.nb", 1, "circuit f(a) -> (q) { q = not a }\ntest f {\n    a | q\n    0 | 1\n}");
 //! let checked = session.open("a.nb")?;
-//! let cases = session.cases(&checked, &checked.program.tests[0], &nbc::TestOptions::default())?;
+//! let cases = checked.cases(&checked.program.tests[0], &nbc::TestOptions::default())?;
 //! let yields = nbc::Yields::of(&cases, &["friction=10%".parse().unwrap()], &[1.0], 2, 1);
 //! let mut tally = yields.tally();
 //! let results = yields.runs().into_iter().map(|run| session.run_in_world(&yields, run, &mut ()).unwrap());

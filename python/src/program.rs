@@ -99,7 +99,7 @@ impl Program {
 
     fn evolutions(&self, py: Python<'_>) -> PyResult<Vec<(String, Evolution)>> {
         let started = |evolution: &nbc::Evolution| {
-            let started = self.session.started(&self.checked, evolution, &CompileOptions::default().runs);
+            let started = self.checked.started(evolution, &CompileOptions::default().runs);
             Ok((evolution.name.clone(), Evolution(started.map_err(|found| diagnosed(py, &found))?)))
         };
         self.checked.program.evolutions.iter().map(started).collect()
@@ -120,8 +120,8 @@ impl Program {
         let options = compiling.options(py, &self.session, &watch)?;
         let choice = Choice { circuit, swarm: options.swarm.clone() };
         let instance = self.checked.circuit(&choice).map_err(|found| diagnosed(py, &found))?;
-        let (session, checked) = (self.session.clone(), self.checked.clone());
-        let compiled = work::run(py, &watch, None, move |_| session.compile(&checked, &instance, &options))?;
+        let checked = self.checked.clone();
+        let compiled = work::run(py, &watch, None, move |_| checked.compile(&instance, &options))?;
         let compiled = compiled.finished()?.map_err(|found| diagnosed(py, &found))?;
         Ok(Compiled::new(self.session.clone(), self.checked.clone(), compiled))
     }
@@ -159,11 +159,11 @@ impl Program {
     ) -> PyResult<String> {
         let (steps, work, seconds) = limits;
         let watch = Watch::until(seconds);
-        let (session, checked) = (self.session.clone(), self.checked.clone());
+        let checked = self.checked.clone();
         let found = work::run(py, &watch, progress.as_ref(), move |watch| {
             let budget = SearchBudget { steps, work };
             let claim = &checked.program.claims[claim];
-            let mut search = session.prove(&checked, claim, budget, watch.cancel.clone())?;
+            let mut search = checked.prove(claim, budget, watch.cancel.clone())?;
             while search.advance(&mut watch.observer()) {}
             Ok(search.finish())
         })?;

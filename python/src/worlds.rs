@@ -35,7 +35,7 @@ pub fn yields(
 ) -> Result<Vec<Robustness>, Diagnostics> {
     let mut cases: Vec<TestCase> = Vec::new();
     for &test in tests {
-        cases.extend(session.cases(checked, &checked.program.tests[test], options)?);
+        cases.extend(checked.cases(&checked.program.tests[test], options)?);
     }
     let Sampling { times, worlds, seed, .. } = sampling;
     Ok(runs(session, &Yields::of(&cases, vary, times, *worlds, *seed), watch))

@@ -82,8 +82,8 @@ impl BuildArguments {
         };
         let options = CompileOptions { without: hardened.without.clone(), ..options };
         let mapping = match chosen {
-            Some(cells) => session.map_onto(&checked, &circuit, &cells, &options)?,
-            None => session.map(&checked, &circuit, &options)?,
+            Some(cells) => checked.map_onto(&circuit, &cells, &options)?,
+            None => checked.map(&circuit, &options)?,
         };
         context.origins(&checked);
         let is_short = !hardened.tried.is_empty() && !hardened.reached;

@@ -176,7 +176,7 @@ impl ProveArguments {
         interrupt: &Interrupt,
     ) -> Result<DecidedClaim, Failure> {
         let timer = Timer::start(self.seconds, interrupt);
-        let mut search = session.prove(file, claim, self.budget(), timer.flag())?;
+        let mut search = file.prove(claim, self.budget(), timer.flag())?;
         decide(search.search());
         drop(timer);
         let mut decided = search.finish();
@@ -212,7 +212,7 @@ fn in_physics(
     let tests: Vec<_> = decided.refuted().map(|(property, test)| (property, test.clone())).collect();
     for (property, test) in tests {
         let mut runs = Vec::new();
-        for case in session.cases(file, &test, &options)? {
+        for case in file.cases(&test, &options)? {
             let bar = Progress::new("simulating", case.work());
             runs.push(session.run_case(case, &mut interrupt.observe(bar.whole())));
         }

@@ -199,7 +199,7 @@ fn a_search_of_voxels_begins_with_the_robots_that_fit() {
     let checked = session.checked("run.nb");
     let said: Vec<&str> = checked.diagnostics.iter().map(|fault| fault.message.as_str()).collect();
     assert_eq!(said, ["no robot of `some` fits into the box and the materials of `other`"]);
-    let started = |name: &str| session.started(&checked, checked.program.evolution(name).unwrap(), "out");
+    let started = |name: &str| checked.started(checked.program.evolution(name).unwrap(), "out");
     let own = started("own").unwrap();
     let fitting: Vec<Vec<String>> = session
         .shipped()

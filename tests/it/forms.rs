@@ -21,7 +21,7 @@ fn mappings(file: &str) -> Vec<Mapping> {
     let map = |circuit: &Instance| {
         let swarm =
             checked.program.swarms.iter().rfind(|swarm| swarm.circuit == *circuit).map(|swarm| swarm.name.clone());
-        let found = session.map(&checked, circuit, &CompileOptions { swarm, ..CompileOptions::default() });
+        let found = checked.map(circuit, &CompileOptions { swarm, ..CompileOptions::default() });
         found.unwrap_or_else(|faults| panic!("{file}: {faults}"))
     };
     circuits.iter().map(map).filter(|mapping| !mapping.proof.cuts.is_empty() && mapping.waves.is_none()).collect()

@@ -1,7 +1,7 @@
 //! Swarms of long tests are kept, and go on with the same bits.
 
 use nbc_session::store::SwarmCheckpoint;
-use nbc_session::{Checked, Observer, RunEnd, Session, SwarmKeeper, TestCase, TestRun};
+use nbc_session::{Checked, Observer, RunEnd, SwarmKeeper, TestCase, TestRun};
 use nbc_swarm::{KeptSwarm, SwarmTask};
 
 use crate::support::*;
@@ -51,8 +51,8 @@ impl SwarmKeeper for MemoryKeeper {
     }
 }
 
-fn case(session: &Session, checked: &Checked) -> TestCase {
-    session.cases(checked, &checked.program.tests[0], &in_physics()).unwrap().remove(0)
+fn case(checked: &Checked) -> TestCase {
+    checked.cases(&checked.program.tests[0], &in_physics()).unwrap().remove(0)
 }
 
 fn bits(run: &TestRun) -> Vec<Vec<bool>> {
@@ -62,16 +62,16 @@ fn bits(run: &TestRun) -> Vec<Vec<bool>> {
 #[test]
 fn a_kept_swarm_goes_on_with_the_same_bits() {
     let (session, checked) = session_of(TEXT);
-    let whole = session.run_case(case(&session, &checked), &mut ());
+    let whole = session.run_case(case(&checked), &mut ());
     assert!(whole.verdict.passed && whole.end == RunEnd::Complete);
     let mut keeper = MemoryKeeper { stop_after: 9, ..MemoryKeeper::default() };
-    let part = session.run_case(case(&session, &checked), &mut keeper);
+    let part = session.run_case(case(&checked), &mut keeper);
     assert_eq!((part.end, keeper.kept.as_ref().unwrap().cycles()), (RunEnd::Cancelled, 9));
     keeper.stop_after = 21;
-    session.run_case(case(&session, &checked), &mut keeper);
+    session.run_case(case(&checked), &mut keeper);
     assert_eq!(keeper.kept.as_ref().unwrap().cycles(), 21);
     keeper.stop_after = 0;
-    let rest = session.run_case(case(&session, &checked), &mut keeper);
+    let rest = session.run_case(case(&checked), &mut keeper);
     assert_eq!(bits(&rest), bits(&whole));
     assert_eq!(rest.verdict, whole.verdict);
     assert!(keeper.kept.is_none(), "nothing is left after the end");
@@ -81,7 +81,7 @@ fn a_kept_swarm_goes_on_with_the_same_bits() {
 fn a_file_of_a_swarm_belongs_to_its_test() {
     let (session, checked) = session_of(TEXT);
     let mut keeper = MemoryKeeper { stop_after: 5, ..MemoryKeeper::default() };
-    session.run_case(case(&session, &checked), &mut keeper);
+    session.run_case(case(&checked), &mut keeper);
     let (task, kept) = (keeper.task.take().unwrap(), keeper.kept.take().unwrap());
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("test.swarm");
@@ -113,7 +113,7 @@ fn a_command_goes_on_with_a_kept_swarm() {
     // The first cycles, as the program would have kept them.
     let (session, checked) = session_of(rows);
     let mut keeper = MemoryKeeper { stop_after: 30, ..MemoryKeeper::default() };
-    session.run_case(case(&session, &checked), &mut keeper);
+    session.run_case(case(&checked), &mut keeper);
     fs::create_dir_all(kept.parent().unwrap()).unwrap();
     SwarmCheckpoint::new(&keeper.task.unwrap(), keeper.kept.unwrap()).save(&kept).unwrap();
     let rest = bench.run(&arguments);

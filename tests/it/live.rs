@@ -47,7 +47,7 @@ fn a_live_swarm_does_what_a_test_does() {
 #[test]
 fn a_swarm_in_parts_does_the_same() {
     let (session, checked) = session_of(LATCH);
-    let compiled = session.compile(&checked, &"d_latch".into(), &CompileOptions::default()).unwrap();
+    let compiled = checked.compile(&"d_latch".into(), &CompileOptions::default()).unwrap();
     let (mut whole, mut parted) = (session.swarm(&compiled), session.swarm(&compiled));
     for (inputs, at) in [([false, true], 2), ([true, true], 4), ([true, false], 1)] {
         let begun = parted.begin(&inputs).unwrap();
@@ -63,7 +63,7 @@ fn a_swarm_in_parts_does_the_same() {
 #[test]
 fn a_restored_swarm_does_the_same_again() {
     let (session, checked) = session_of(LATCH);
-    let compiled = session.compile(&checked, &"d_latch".into(), &CompileOptions::default()).unwrap();
+    let compiled = checked.compile(&"d_latch".into(), &CompileOptions::default()).unwrap();
     let mut swarm = session.swarm(&compiled);
     let walk = |swarm: &mut nbc::LiveSwarm| {
         [[true, true], [true, false], [false, true]].iter().for_each(|inputs| _ = swarm.step(inputs));

@@ -264,7 +264,7 @@ fn mapped(world: impl SourceWorld + Send + Sync + 'static, program: &str, circui
         return Err(fault.message.clone());
     }
     let options = CompileOptions { swarm: Some("form".to_owned()), ..CompileOptions::default() };
-    let mapping = session.map(&checked, &Instance::from(circuit), &options);
+    let mapping = checked.map(&Instance::from(circuit), &options);
     mapping.map_err(|faults| faults.list[0].message.clone())
 }
 

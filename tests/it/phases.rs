@@ -206,7 +206,7 @@ fn hold_of(file: &str) -> u32 {
     let mut session = Session::new(DiskWorld);
     let checked = session.checked(root().join("circuits").join(file).to_str().unwrap());
     let circuit = &checked.program.tests[0].circuit;
-    let mapping = session.map(&checked, circuit, &CompileOptions::default()).unwrap();
+    let mapping = checked.map(circuit, &CompileOptions::default()).unwrap();
     Timing::of(&mapping.netlist, &mapping.cells, Delays::Clock).hold
 }
 

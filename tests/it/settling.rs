@@ -129,7 +129,7 @@ fn holds(file: &str) -> (f64, usize) {
     let mut session = Session::new(DiskWorld);
     let checked = session.checked(path.to_str().unwrap());
     let options = TestOptions { level: Some(Level::Physics), ..TestOptions::default() };
-    let of_test = |test| session.cases(&checked, test, &options).unwrap();
+    let of_test = |test| checked.cases(test, &options).unwrap();
     let holds: Vec<usize> = checked
         .program
         .tests

@@ -289,7 +289,7 @@ const ROOMS: [(&str, usize); 16] = [
     ("crates/play", 6_330),
     ("crates/play-server", 1_650),
     ("crates/report", 8_450),
-    ("crates/session", 6_000),
+    ("crates/session", 6_050),
     ("crates/sim", 6_900),
     ("crates/store", 4_300),
     ("crates/swarm", 8_100),

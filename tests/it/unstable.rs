@@ -202,7 +202,7 @@ fn reports_of_the_library_fail() {
 #[test]
 fn a_live_swarm_ends_with_the_fault() {
     let (session, checked) = session_of(SIMULATED);
-    let compiled = session.compile(&checked, &"conj".into(), &CompileOptions::default()).unwrap();
+    let compiled = checked.compile(&"conj".into(), &CompileOptions::default()).unwrap();
     let mut swarm = session.swarm(&compiled);
     let start = swarm.snapshot();
     let fault = swarm.step(&[false, true]).unwrap_err();
@@ -216,7 +216,7 @@ fn a_live_swarm_ends_with_the_fault() {
 #[test]
 fn bits_from_another_machine_have_the_fault() {
     let (session, checked) = session_of(BOOM);
-    let case = session.cases(&checked, &checked.program.tests[0], &in_physics()).unwrap().remove(0);
+    let case = checked.cases(&checked.program.tests[0], &in_physics()).unwrap().remove(0);
     let bits = SwarmBits::simulate(&nbc::Simulator::default(), &case.task().unwrap());
     assert!(bits.cycles.is_empty() && bits.fault.is_some());
     let there = case.clone().judge(&bits);

@@ -64,8 +64,8 @@ fn wrong_outputs(machines: usize, seed: u64) -> (usize, usize) {
     let (mut robots, mut wrong) = (0, 0);
     for _ in 0..machines {
         let text = program(&mut random);
-        let (session, checked) = session_of(text);
-        let compiled = session.compile(&checked, &"m".into(), &CompileOptions::default()).unwrap();
+        let (_, checked) = session_of(text);
+        let compiled = checked.compile(&"m".into(), &CompileOptions::default()).unwrap();
         let ports = compiled.assembly.inputs.len();
         robots += compiled.assembly.members.len();
         let bits = |_| (0..ports).map(|_| random.next_u32() & 1 == 1).collect();
@@ -124,7 +124,7 @@ fn wrong_in(file: &str, swarm: &str, steps: usize) -> usize {
     let choice = Choice { swarm: Some(swarm.to_owned()), ..Choice::default() };
     let circuit = checked.circuit(&choice).unwrap();
     let options = CompileOptions { swarm: choice.swarm, ..CompileOptions::default() };
-    let compiled = session.compile(&checked, &circuit, &options).unwrap();
+    let compiled = checked.compile(&circuit, &options).unwrap();
     let rows = vec![vec![false; compiled.assembly.inputs.len()]; steps + 1];
     wrong_in_rows(&compiled, &rows)
 }

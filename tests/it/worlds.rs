@@ -262,7 +262,7 @@ fn a_trial_ends_with_the_first_row_that_fails() {
     let dead = WorldNoise { dead: 1.0, ..WorldNoise::default() };
     let world = PhysicsWorld { noise: dead, ..PhysicsWorld::default() };
     let (session, checked) = session_of(HOSTILE);
-    let case = session.cases(&checked, &checked.program.tests[0], &in_physics()).unwrap().remove(0);
+    let case = checked.cases(&checked.program.tests[0], &in_physics()).unwrap().remove(0);
     let mut told = (0, 0);
     let run = session.run_case(case.trial_in(world), &mut |done, all| told = (done, all));
     assert!(!run.verdict.passed && run.verdict.rows.iter().filter(|row| !row.passed).count() == 1);

@@ -22,7 +22,7 @@ impl Server {
         let Some(checked) = self.checked(&place.text_document.uri) else { return Some(Response::new_ok(id, ())) };
         let files = self.files(&checked);
         let spot = Spot::of(files, place.position);
-        let shown = spot.and_then(|spot| hover::show(&spot, &self.session, self.settings.pictures));
+        let shown = spot.and_then(|spot| hover::show(&spot, self.settings.pictures));
         let Some(shown) = shown else { return Some(Response::new_ok(id, ())) };
         let range = Some(files.range(shown.place));
         let figures = match &shown.subject {

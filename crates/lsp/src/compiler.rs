@@ -7,9 +7,8 @@ use std::sync::{Arc, Weak};
 
 use crate::figures::{Figures, Subject};
 use crate::shell::LanguageShell;
-use nbc_base::source::SharedWorld;
 use nbc_circuit::CancelFlag;
-use nbc_session::{Checked, Session};
+use nbc_session::Checked;
 
 type Key = (String, Subject);
 
@@ -17,8 +16,6 @@ const MOST: usize = 4096;
 
 pub(super) struct Compiler {
     shell: Arc<dyn LanguageShell>,
-    /// The texts have another session.
-    session: Arc<Session>,
     results: (Sender<Compilation>, Receiver<Compilation>),
     known: BTreeMap<Key, (Weak<Checked>, Option<Figures>)>,
     asked: BTreeSet<Key>,
@@ -43,15 +40,8 @@ pub(super) enum FigureState<'a> {
 }
 
 impl Compiler {
-    pub(super) fn new(world: SharedWorld, shell: Arc<dyn LanguageShell>) -> Self {
-        Self {
-            shell,
-            session: Arc::new(Session::new(world)),
-            results: channel(),
-            known: BTreeMap::new(),
-            asked: BTreeSet::new(),
-            flags: Vec::new(),
-        }
+    pub(super) fn new(shell: Arc<dyn LanguageShell>) -> Self {
+        Self { shell, results: channel(), known: BTreeMap::new(), asked: BTreeSet::new(), flags: Vec::new() }
     }
 
     pub(super) fn result(&self) -> Option<Compilation> {
@@ -71,8 +61,8 @@ impl Compiler {
             let cancel = CancelFlag::default();
             self.flags.push((Arc::downgrade(checked), cancel.clone()));
             let job = Job { checked: Arc::downgrade(checked), key, cancel };
-            let (session, results) = (self.session.clone(), self.results.0.clone());
-            self.shell.queue(Box::new(move || _ = results.send(job.done(&session))));
+            let results = self.results.0.clone();
+            self.shell.queue(Box::new(move || _ = results.send(job.done())));
         }
         FigureState::NotYet
     }
@@ -115,11 +105,11 @@ fn is_same(of: &Weak<Checked>, checked: &Arc<Checked>) -> bool {
 }
 
 impl Job {
-    fn done(self, session: &Session) -> Compilation {
+    fn done(self) -> Compilation {
         let Self { checked, key, cancel } = self;
         // A bug in compiling one circuit must not end whoever does the work.
         let compile = |checked: Arc<Checked>| {
-            catch_unwind(AssertUnwindSafe(|| key.1.compile(session, &checked, &cancel))).unwrap_or_default()
+            catch_unwind(AssertUnwindSafe(|| key.1.compile(&checked, &cancel))).unwrap_or_default()
         };
         // A compilation that was cancelled may have more robots than needed.
         let figures = checked.upgrade().and_then(compile).filter(|_| !cancel.is_raised());

@@ -4,7 +4,7 @@ use nbc_base::diag::counted;
 use nbc_base::model::Instance;
 use nbc_base::source::Span;
 use nbc_circuit::CancelFlag;
-use nbc_session::{Checked, CompileOptions, Mapping, Session};
+use nbc_session::{Checked, CompileOptions, Mapping};
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Subject {
@@ -34,14 +34,14 @@ pub(super) struct CircuitFigures {
 
 impl Subject {
     /// `None` if it cannot be made. The figures of a cancelled compilation must not be used.
-    pub(super) fn compile(&self, session: &Session, checked: &Checked, cancel: &CancelFlag) -> Option<Figures> {
+    pub(super) fn compile(&self, checked: &Checked, cancel: &CancelFlag) -> Option<Figures> {
         match self {
             Self::Circuit(circuit, swarm) => {
-                of_circuit(session, checked, circuit, options(checked, circuit, swarm.clone(), cancel))
+                of_circuit(checked, circuit, options(checked, circuit, swarm.clone(), cancel))
             }
             Self::Net(circuit, net) => {
                 let options = options(checked, circuit, None, cancel);
-                let Mapping { source, netlist, .. } = session.map_net(checked, circuit, *net, &options).ok()?;
+                let Mapping { source, netlist, .. } = checked.map_net(circuit, *net, &options).ok()?;
                 Some(Figures::Net { cells: source.cells().count(), robots: netlist.cells().count() })
             }
         }
@@ -53,8 +53,8 @@ fn options(checked: &Checked, circuit: &Instance, swarm: Option<String>, cancel:
     CompileOptions { swarm: swarm.or_else(first), cancel: cancel.clone(), ..CompileOptions::default() }
 }
 
-fn of_circuit(session: &Session, checked: &Checked, circuit: &Instance, options: CompileOptions) -> Option<Figures> {
-    let compiled = session.compile(checked, circuit, &options).ok()?;
+fn of_circuit(checked: &Checked, circuit: &Instance, options: CompileOptions) -> Option<Figures> {
+    let compiled = checked.compile(circuit, &options).ok()?;
     let timing = compiled.swarm_timing();
     Some(Figures::Circuit(CircuitFigures {
         swarm: options.swarm,

@@ -140,7 +140,7 @@ impl Server {
             abilities,
             is_outdated: false,
             asked: 0,
-            compiler: Compiler::new(world.clone(), shell.clone()),
+            compiler: Compiler::new(shell.clone()),
             waiting: Vec::new(),
             runs: Runs::new(shell.clone()),
             published: BTreeMap::new(),

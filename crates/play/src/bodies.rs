@@ -27,7 +27,7 @@ pub(super) fn robots(session: &Session, checked: Option<&Checked>) -> Result<Rob
     let mut all: Vec<(Robot, bool)> = session.shipped().robots.iter().map(|robot| (robot.clone(), true)).collect();
     if let Some(checked) = checked {
         for library in &checked.program.libraries {
-            let Library { robots } = session.robots(checked, Some(&library.name), &CompileOptions::default())?;
+            let Library { robots } = checked.robots(Some(&library.name), &CompileOptions::default())?;
             let new = |robot: &Robot| all.iter().all(|(known, _)| known != robot);
             let new: Vec<Robot> = robots.into_iter().filter(new).collect();
             all.extend(new.into_iter().map(|robot| (robot, library.from == Origin::Three)));

@@ -140,7 +140,7 @@ mod tests {
         session.update("n.nb", 1, "circuit n(a) -> (b) { b = not a }");
         let checked = session.open("n.nb").unwrap();
         let circuit = checked.circuit(&Choice::default()).unwrap();
-        let compiled = session.compile(&checked, &circuit, &CompileOptions::default()).unwrap();
+        let compiled = checked.compile(&circuit, &CompileOptions::default()).unwrap();
         session.swarm(&compiled)
     }
 

@@ -47,7 +47,7 @@ pub fn live_page(
     let noted = Arc::new(NotingWorld { over, read: Mutex::default() });
     let mut session = Session::new(noted.clone());
     let again = session.open(&checked.path)?;
-    let compiled = session.compile(&again, &again.circuit(choice)?, options)?;
+    let compiled = again.compile(&again.circuit(choice)?, options)?;
     let read = lock(&noted.read);
     let folder = checked.path.rsplit_once('/').map_or("", |(folder, _)| folder);
     let circuit = &compiled.plan.circuit.circuit;

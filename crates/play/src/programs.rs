@@ -251,7 +251,6 @@ fn listed_rows(mut verdicts: Vec<TestVerdict>, most: usize) -> Vec<TestVerdict> 
 }
 
 pub(super) fn proving(
-    session: Session,
     open: impl FnOnce(&Job) -> Result<Arc<Checked>, Refused> + Send + 'static,
     claim: usize,
 ) -> JobWork {
@@ -260,7 +259,7 @@ pub(super) fn proving(
         let Some(search) = &mut searching else {
             let checked = open.take().expect("it is opened once")(job)?;
             let claim = checked.program.claims.get(claim).ok_or(Refused::NoClaim)?;
-            searching = Some(session.prove(&checked, claim, SearchBudget::SHORT, job.stop.clone())?);
+            searching = Some(checked.prove(claim, SearchBudget::SHORT, job.stop.clone())?);
             return Ok(PortionEnd::More);
         };
         if search.advance(job) {

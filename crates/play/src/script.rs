@@ -4,7 +4,7 @@ use crate::jobs::Job;
 use crate::message::{ShownEnvironment, ShownMemory, ShownScript};
 use crate::refusal::Refused;
 use nbc_base::model::CircuitTest;
-use nbc_session::{Checked, Compiled, EnvironmentRow, EnvironmentRun, Session, TestCase, TestOptions};
+use nbc_session::{Checked, Compiled, EnvironmentRow, EnvironmentRun, TestCase, TestOptions};
 use nbc_swarm::Level;
 
 /// The most rows that a swarm is given beyond those before it is shown.
@@ -32,14 +32,13 @@ pub(super) fn chosen_test(checked: &Checked, number: Option<usize>) -> Result<&C
 }
 
 pub(super) fn begin(
-    session: &Session,
     checked: &Checked,
     TestMoment { test, swarm, world, row }: TestMoment<'_>,
     job: &Job,
 ) -> Result<(Compiled, GivenInputs), Refused> {
     let test = chosen_test(checked, test)?;
     let options = TestOptions { level: Some(Level::Physics), compile: job.options_for(checked, &test.circuit) };
-    let cases = session.cases(checked, test, &options)?;
+    let cases = checked.cases(test, &options)?;
     let is_meant =
         |case: &TestCase| (swarm.is_none() || case.swarm() == swarm) && (world.is_none() || case.world_name() == world);
     let meant = cases.into_iter().find(is_meant).ok_or(Refused::NoTest)?;
@@ -54,7 +53,7 @@ pub(super) fn begin(
     // The rows of a wave machine are steps of several threads at once.
     let environment = match driven.compiled.mapping.waves {
         Some(_) => None,
-        None => session.environment(checked, test, all, &options.compile)?,
+        None => checked.environment(test, all, &options.compile)?,
     };
     let environment = environment.map(|run| shown(run, &begins.take(all).collect::<Vec<_>>()));
     let shown = ShownScript { title: test.title.clone(), cycles: driven.inputs.len(), environment };

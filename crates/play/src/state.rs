@@ -137,8 +137,7 @@ mod tests {
         let choice = Choice { circuit: Some(circuit.to_owned()), ..Choice::default() };
         let circuit = checked.circuit(&choice).unwrap();
         let swarm = checked.program.swarms.last().map(|swarm| swarm.name.clone());
-        let compiled =
-            session.compile(&checked, &circuit, &CompileOptions { swarm, ..CompileOptions::default() }).unwrap();
+        let compiled = checked.compile(&circuit, &CompileOptions { swarm, ..CompileOptions::default() }).unwrap();
         (checked, compiled)
     }
 

@@ -185,16 +185,16 @@ impl Visit {
         let work = match verb {
             Verb::Compile { path, circuit, swarm } => {
                 let choice = Choice { circuit: Some(circuit), swarm };
-                self.swarm(path, None, RequestResult::Compile, move |session, checked, job| {
+                self.swarm(path, None, RequestResult::Compile, move |checked, job| {
                     let (circuit, options) = programs::chosen(checked, &choice, job)?;
-                    Ok((session.compile(checked, &circuit, &options)?, GivenInputs::default()))
+                    Ok((checked.compile(&circuit, &options)?, GivenInputs::default()))
                 })
             }
             Verb::Replay { path, test, swarm, world, row } => {
                 let (test, shown) = test.parts();
-                self.swarm(path, shown, RequestResult::Replay, move |session, checked, job| {
+                self.swarm(path, shown, RequestResult::Replay, move |checked, job| {
                     let moment = TestMoment { test, swarm: swarm.as_deref(), world: world.as_deref(), row };
-                    script::begin(session, checked, moment, job)
+                    script::begin(checked, moment, job)
                 })
             }
             Verb::Read { path: Some(path), .. } => {
@@ -215,7 +215,7 @@ impl Visit {
             }
             Verb::Prove { path, claim } => {
                 let checker = self.checker.clone();
-                programs::proving(self.fresh(), move |job: &Job| checker.open(&path, job), claim)
+                programs::proving(move |job: &Job| checker.open(&path, job), claim)
             }
             Verb::Robots { path } => {
                 let (checker, session) = (self.checker.clone(), self.fresh());
@@ -296,7 +296,7 @@ impl Visit {
         path: String,
         more: Option<String>,
         answer: fn(SwarmAnswer) -> RequestResult,
-        compile: impl FnOnce(&Session, &Checked, &Job) -> Result<(Compiled, GivenInputs), Refused> + Send + 'static,
+        compile: impl FnOnce(&Checked, &Job) -> Result<(Compiled, GivenInputs), Refused> + Send + 'static,
     ) -> JobWork {
         self.swarms += 1;
         let (number, loaded) = (self.swarms, self.loaded.0.clone());
@@ -306,7 +306,7 @@ impl Visit {
             let Some(swarm) = &mut loading else {
                 let compile = compile.take().expect("it is compiled once");
                 let checked = checker.open_with(&path, more.as_deref(), job)?;
-                let (compiled, script) = compile(&session, &checked, job)?;
+                let (compiled, script) = compile(&checked, job)?;
                 loading = Some(programs::loading(
                     (&session, &checked),
                     compiled,

@@ -1,25 +1,26 @@
 //! What a test, a build or a search would refuse before it simulates anything: libraries that lack robots, swarms that
 //! cannot be made, rows that are no steps, environments whose files do not fit. A check of a program says it, too.
 
+use crate::checked::Checked;
 use crate::compile::map_onto;
 use crate::options::RUNS;
-use crate::robots::RobotSources;
 use crate::wording::{self, for_circuit};
-use crate::{script, start_bodies, waves};
+use crate::{script, waves};
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic, Severity};
 use nbc_base::model::{CircuitTest, Instance, Library, Origin, Program, RegisterStyle, Stimulation, Swarm, TestRow};
-use nbc_base::source::Span;
+use nbc_base::source::{SourceWorld, Span};
 use nbc_circuit::waves::ClockStep;
-use nbc_circuit::{Effort, Loops, MapOptions, RegisterForm, elaborate, has_multiplexers, is_same_instance};
+use nbc_circuit::{Effort, Loops, MapOptions, Netlist, RegisterForm, has_multiplexers, is_same_instance};
 use nbc_lang::check::DEFAULT_LIBRARY;
 
 /// Larger circuits are not made into wave machines during a check.
 const SMALL: usize = 200;
 
 /// `files` replace declared files, by name and path. Libraries of evolutions that have not run yet are skipped.
-pub(super) fn faults(sources: RobotSources<'_>, program: &Program, files: &[(String, String)]) -> Vec<Diagnostic> {
-    let mut look = Look { sources, program, faults: Vec::new() };
+pub(super) fn faults(checked: &Checked, files: &[(String, String)]) -> Vec<Diagnostic> {
+    let program = &checked.program;
+    let mut look = Look { checked, program, faults: Vec::new() };
     for declared in &program.libraries {
         // The libraries of the program itself are whole, and need not be read.
         let is_elsewhere = matches!(declared.from, Origin::Folder(_) | Origin::Evolution(_));
@@ -42,15 +43,15 @@ pub(super) fn faults(sources: RobotSources<'_>, program: &Program, files: &[(Str
     }
     for evolution in program.evolutions.iter().filter(|evolution| program.own_evolutions.contains(&evolution.name)) {
         let library = evolution.start.as_ref().and_then(|start| program.library(&start.library));
-        if library.is_some_and(|library| sources.has_run(library, RUNS)) {
-            look.note(start_bodies::started(sources, program, evolution, RUNS).map(drop));
+        if library.is_some_and(|library| checked.has_run(library, RUNS)) {
+            look.note(checked.with_start(evolution, RUNS).map(drop));
         }
     }
     look.faults
 }
 
 struct Look<'a> {
-    sources: RobotSources<'a>,
+    checked: &'a Checked,
     program: &'a Program,
     faults: Vec<Diagnostic>,
 }
@@ -65,16 +66,16 @@ impl Look<'_> {
     }
 
     fn options(&self) -> MapOptions {
-        MapOptions { cancel: self.sources.world.cancel(), ..MapOptions::default() }
+        MapOptions { cancel: self.checked.context.world.cancel(), ..MapOptions::default() }
     }
 
     /// `None` after an error, and for an evolution that has not run yet.
     fn library(&mut self, name: &str) -> Option<Library> {
         let declared = self.program.library(name)?;
-        if !self.sources.has_run(declared, RUNS) {
+        if !self.checked.has_run(declared, RUNS) {
             return None;
         }
-        match self.sources.library(declared, RUNS) {
+        match self.checked.library(declared, RUNS) {
             Ok(library) => Some(library),
             Err(faults) => {
                 self.note(Err(faults));
@@ -91,6 +92,10 @@ impl Look<'_> {
         })
     }
 
+    fn is_three(&self, library: &str) -> bool {
+        self.program.library(library).is_some_and(|declared| declared.from == Origin::Three)
+    }
+
     fn circuit(&mut self, circuit: &Instance, library: &str, place: Span) {
         if self.is_whole(library) {
             return;
@@ -99,9 +104,10 @@ impl Look<'_> {
         let cells = nbc_swarm::cells(&robots);
         if !cells.is_complete() {
             let options = MapOptions { effort: Effort::Fast, ..self.options() };
-            let source = elaborate(self.program, circuit);
-            let made = source
-                .and_then(|source| map_onto(source, &cells, &options, RegisterForm::Nands, place, Limit::SwarmGates));
+            let made = self.checked.netlist(circuit).and_then(|source| {
+                let source = Netlist::clone(&source);
+                map_onto(source, &cells, &options, RegisterForm::Nands, place, Limit::SwarmGates)
+            });
             self.note(made.map(drop));
         }
     }
@@ -110,6 +116,8 @@ impl Look<'_> {
         self.registers(swarm);
         match swarm.registers {
             RegisterStyle::MasterSlave => self.circuit(&swarm.circuit, &swarm.library, swarm.span),
+            // Those of three senses have multiplexers, and are many to read.
+            RegisterStyle::Mux if self.is_whole(&swarm.library) && self.is_three(&swarm.library) => {}
             RegisterStyle::Mux => {
                 let Some(robots) = self.library(&swarm.library) else { return };
                 if has_multiplexers(&nbc_swarm::cells(&robots)) {
@@ -127,7 +135,7 @@ impl Look<'_> {
         if swarm.registers != RegisterStyle::Mux {
             return;
         }
-        let Ok(netlist) = elaborate(self.program, &swarm.circuit) else { return };
+        let Ok(netlist) = self.checked.netlist(&swarm.circuit) else { return };
         if Loops::of(&netlist).cores().is_empty() && netlist.registers().next().is_none() {
             let circuit = swarm.circuit.to_string();
             self.note(Err(vec![wording::no_registers(&swarm.name, &circuit, swarm.span)]));
@@ -136,7 +144,7 @@ impl Look<'_> {
 
     /// A wave machine needs one clock, and each row of its tests must be a step.
     fn waves(&mut self, swarm: &Swarm) {
-        let Ok(netlist) = elaborate(self.program, &swarm.circuit) else { return };
+        let Ok(netlist) = self.checked.netlist(&swarm.circuit) else { return };
         let step = match ClockStep::of(&netlist) {
             Ok(step) => step,
             Err(error) => {
@@ -149,7 +157,7 @@ impl Look<'_> {
         } else if (swarm.waves.step.is_some() || !self.is_whole(&swarm.library))
             && let Some(robots) = self.library(&swarm.library)
         {
-            let made = waves::map_waves(netlist, &robots, swarm.waves, &self.options());
+            let made = waves::map_waves(Netlist::clone(&netlist), &robots, swarm.waves, &self.options());
             self.note(made.map(drop).map_err(|fault| vec![for_circuit(fault, swarm.span)]));
         }
         let clock = step.clock.map(|clock| (clock, step.rises));
@@ -174,7 +182,7 @@ impl Look<'_> {
         if let Stimulation::Script(script) = &test.stimulation
             && script.environment.is_some()
         {
-            let built = script::environment(self.sources.world, self.program, test, script, files);
+            let built = script::environment(&self.checked.context.world, self.program, test, script, files);
             self.note(built.map_err(|faults| faults.into_iter().map(later).collect()));
         }
     }
@@ -183,4 +191,14 @@ impl Look<'_> {
 fn later(fault: Diagnostic) -> Diagnostic {
     let severity = if fault.code == Code::Unreadable { Severity::Warning } else { fault.severity };
     Diagnostic { severity, ..fault }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_robots_of_three_senses_have_multiplexers() {
+        assert!(has_multiplexers(&nbc_swarm::cells(&crate::store::three_library())));
+    }
 }

@@ -1,15 +1,18 @@
 //! A parsed and checked source.
 
+use std::sync::Arc;
+
 use crate::contents;
+use crate::context::{CheckContext, lock};
 use nbc_base::diag::{Diagnostic, Diagnostics, Finding, findings};
 use nbc_base::model::{Instance, Program};
-use nbc_base::source::{FileId, ForeignCircuit, MemoryWorld, SourceWorld, Sources, Span};
-use nbc_circuit::{NetWidths, elaborate};
+use nbc_base::source::{FileId, ForeignCircuit, MemoryWorld, Sources, Span};
+use nbc_circuit::{NetWidths, Netlist, elaborate};
 use nbc_lang::check::{self, Analysis, NameUses};
 use nbc_lang::syntax::KnownDeclarations;
 use nbc_lang::syntax::tree::Tree;
 
-/// A source with its program and its diagnostics.
+/// A source with its program and its diagnostics, and all with which it is compiled, tested and proved.
 #[derive(Clone, Debug)]
 pub struct Checked {
     pub path: String,
@@ -32,10 +35,12 @@ pub struct Checked {
     pub foreign: Vec<ForeignCircuit>,
     /// The check was cancelled, so a part of the result is missing.
     pub(super) is_cancelled: bool,
+    pub(super) context: Arc<CheckContext>,
 }
 
 impl Checked {
-    pub(super) fn read(world: &dyn SourceWorld, path: &str, revision: u64, known: &mut KnownDeclarations) -> Self {
+    pub(super) fn read(context: Arc<CheckContext>, path: &str, revision: u64, known: &mut KnownDeclarations) -> Self {
+        let world = &context.world;
         let mut sources = Sources::default();
         let (file, analysis) = match check::open(world, path, &mut sources) {
             Ok(file) => (Some(file), check::check_again(world, &mut sources, file, known)),
@@ -56,6 +61,7 @@ impl Checked {
             instances,
             foreign,
             is_cancelled,
+            context,
         }
     }
 
@@ -84,6 +90,20 @@ impl Checked {
 
     pub fn findings(&self) -> Vec<Finding> {
         findings(&self.diagnostics, &self.sources)
+    }
+
+    pub(super) fn told<T>(&self, result: Result<T, Vec<Diagnostic>>) -> Result<T, Diagnostics> {
+        result.map_err(|list| self.fail(list))
+    }
+
+    /// Elaborated once.
+    pub(super) fn netlist(&self, circuit: &Instance) -> Result<Arc<Netlist>, Vec<Diagnostic>> {
+        if let Some(known) = lock(&self.context.netlists).get(circuit) {
+            return Ok(known.clone());
+        }
+        let netlist = Arc::new(elaborate(&self.program, circuit)?);
+        lock(&self.context.netlists).insert(circuit.clone(), netlist.clone());
+        Ok(netlist)
     }
 
     pub(super) fn place(&self, circuit: &Instance) -> Span {

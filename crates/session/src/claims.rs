@@ -1,11 +1,12 @@
 //! Claims of a program, decided: a search in portions, and the rows of a test that show what refutes a property.
 
+use crate::checked::Checked;
 use crate::decided_claim::{DecidedClaim, text_of_test};
 use crate::decided_property::DecidedProperty;
 use crate::observer::Observer;
 use crate::run_rows::RunPorts;
 use crate::wording;
-use nbc_base::diag::Diagnostic;
+use nbc_base::diag::{Diagnostic, Diagnostics};
 use nbc_base::model::{Base, CircuitId, CircuitTest, Claim, Program, Property, PropertyKind, Stimulation};
 use nbc_base::source::Span;
 use nbc_circuit::elaborate::elaborate_environment;
@@ -23,8 +24,15 @@ pub struct ClaimSearch {
     monitor: Netlist,
 }
 
+impl Checked {
+    /// Begins to decide a claim. The search ends when its budget does, or when the flag is raised.
+    pub fn prove(&self, claim: &Claim, budget: SearchBudget, cancel: CancelFlag) -> Result<ClaimSearch, Diagnostics> {
+        self.told(ClaimSearch::new(&self.program, claim, budget, cancel))
+    }
+}
+
 impl ClaimSearch {
-    pub(super) fn new(
+    fn new(
         program: &Program,
         claim: &Claim,
         budget: SearchBudget,

@@ -2,56 +2,87 @@
 
 use std::sync::Arc;
 
+use crate::checked::Checked;
+use crate::compiled::{Compiled, Plan};
+use crate::context::lock;
 use crate::mapping::Mapping;
-use crate::plan::Plan;
+use crate::options::CompileOptions;
 use crate::waves::map_waves;
 use crate::wording::{self, for_circuit};
 use nbc_base::budget::Limit;
-use nbc_base::diag::Diagnostic;
+use nbc_base::diag::{Diagnostic, Diagnostics};
 use nbc_base::model::{Instance, NamedWorld, Program, RegisterStyle};
 use nbc_base::source::Span;
 use nbc_circuit::passes::sweep;
 use nbc_circuit::{
-    CellLibrary, MapOptions, Netlist, RegisterForm, Timing, elaborate_net, has_multiplexers, kept,
-    latches_as_registers, lower, map_with, prove,
+    CellLibrary, MapOptions, Netlist, RegisterForm, elaborate_net, has_multiplexers, kept, latches_as_registers, lower,
+    map_with, prove,
 };
-use nbc_swarm::{Assembly, WeakRobot};
+use nbc_swarm::Assembly;
 
-/// A circuit compiled to a swarm.
-#[derive(Clone, Debug)]
-pub struct Compiled {
-    pub plan: Plan,
-    pub mapping: Mapping,
-    pub timing: Timing,
-    pub assembly: Assembly,
-    pub weak_robots: Vec<WeakRobot>,
-    pub warnings: Vec<Diagnostic>,
-}
+/// Swarms of a source that are not compiled again.
+const RECENT: usize = 4;
 
-impl Compiled {
-    pub(super) fn clocks(&self) -> Vec<u32> {
-        self.assembly.members.iter().map(|member| member.robot.character.clock).collect()
+impl Checked {
+    /// Maps a circuit onto the robots of its swarm, and proves the result.
+    pub fn map(&self, circuit: &Instance, options: &CompileOptions) -> Result<Mapping, Diagnostics> {
+        self.told(self.plan(circuit, options).and_then(|plan| {
+            let source = Netlist::clone(&*self.netlist(circuit)?);
+            map(source, &plan, &options.mapping(), self.place(circuit), Limit::Cells)
+        }))
     }
 
-    pub(super) fn in_world(&self, world: NamedWorld) -> Self {
-        let mut moved = Self { plan: self.plan.clone().in_world(world), ..self.clone() };
-        for member in &mut moved.assembly.members {
-            let own = moved.plan.library.robots.iter().find(|robot| robot.name == member.robot.name);
-            let own = own.expect("a member is of the library");
-            member.robot.body.clone_from(&own.body);
-            member.robot.character.clock = own.character.clock;
-        }
-        if self.pace() != moved.pace() {
-            moved.mapping.cells = nbc_swarm::cells(&moved.plan.library);
-            moved.timing = moved.plan.timing(&moved.mapping);
-        }
-        Self { assembly: moved.assembly.in_world(moved.plan.world.world), ..moved }
+    pub fn map_net(&self, circuit: &Instance, net: Span, options: &CompileOptions) -> Result<Mapping, Diagnostics> {
+        let plan = self.plan(circuit, options);
+        self.told(plan.and_then(|plan| map_net(&self.program, &plan, net, options.mapping())))
     }
 
-    /// All of its world on which the times of its robots depend.
-    pub(super) fn pace(&self) -> (u32, f64) {
-        let world = &self.plan.world.world;
-        (world.lateness(), world.noise.drift)
+    /// Maps a circuit onto cells that need not be robots, and proves the result.
+    pub fn map_onto(
+        &self,
+        circuit: &Instance,
+        cells: &CellLibrary,
+        options: &CompileOptions,
+    ) -> Result<Mapping, Diagnostics> {
+        self.told(self.netlist(circuit).and_then(|source| {
+            let (source, place) = (Netlist::clone(&source), self.place(circuit));
+            map_onto(source, cells, &options.mapping(), RegisterForm::Nands, place, Limit::Cells)
+        }))
+    }
+
+    /// Compiles a circuit to the swarm that is declared for it: elaborate, map, prove, time, assemble.
+    pub fn compile(&self, circuit: &Instance, options: &CompileOptions) -> Result<Compiled, Diagnostics> {
+        let plan = self.plan(circuit, options);
+        self.told(plan.and_then(|plan| self.compiled(plan, options, self.place(circuit))))
+    }
+
+    pub(super) fn compiled(
+        &self,
+        plan: Plan,
+        options: &CompileOptions,
+        place: Span,
+    ) -> Result<Compiled, Vec<Diagnostic>> {
+        let (objective, effort) = (options.objective, options.effort);
+        let is_same = |(by, with, known): &&(_, _, Compiled)| (*by, *with) == (objective, effort) && known.plan == plan;
+        let known = lock(&self.context.compiled).iter().find(is_same).map(|(.., known)| known.clone());
+        let mut compiled = match known {
+            Some(known) => known,
+            None => {
+                let source = Netlist::clone(&*self.netlist(&plan.circuit)?);
+                compile(&self.program, source, plan, &options.mapping(), place)?
+            }
+        };
+        // What was cancelled may have more robots than needed.
+        if !options.cancel.is_raised() {
+            let mut recent = lock(&self.context.compiled);
+            recent.retain(|(.., known)| known.plan != compiled.plan);
+            recent.insert(0, (objective, effort, compiled.clone()));
+            recent.truncate(RECENT);
+        }
+        let circuit = compiled.plan.circuit.to_string();
+        let warnings = compiled.weak_robots.iter().map(|weak| wording::weak_robot(&circuit, weak, place));
+        compiled.warnings = warnings.collect();
+        Ok(compiled)
     }
 }
 
@@ -93,7 +124,7 @@ fn permit(netlist: &Netlist, limit: Limit, place: Span) -> Result<(), Vec<Diagno
     limit.permit(netlist.size() as u64).map_err(|over| vec![over.at(place)])
 }
 
-pub(super) fn map(
+fn map(
     source: Netlist,
     plan: &Plan,
     options: &MapOptions,
@@ -123,12 +154,7 @@ pub(super) fn need_beat(worlds: &[NamedWorld], place: Span) -> Result<(), Vec<Di
     }
 }
 
-pub(super) fn map_net(
-    program: &Program,
-    plan: &Plan,
-    net: Span,
-    options: MapOptions,
-) -> Result<Mapping, Vec<Diagnostic>> {
+fn map_net(program: &Program, plan: &Plan, net: Span, options: MapOptions) -> Result<Mapping, Vec<Diagnostic>> {
     let source = elaborate_net(program, &plan.circuit, net)?;
     let mapping = synthesize(source, &nbc_swarm::cells(&plan.library), &options, RegisterForm::Nands);
     let mut mapping = mapping.map_err(|fault| vec![for_circuit(fault, net)])?;
@@ -137,7 +163,7 @@ pub(super) fn map_net(
     Ok(mapping)
 }
 
-pub(super) fn compile(
+fn compile(
     program: &Program,
     source: Netlist,
     plan: Plan,
@@ -157,9 +183,7 @@ pub(super) fn compile(
     let mut assembly = assembly.in_world(plan.world.world);
     name_values(program, &plan.circuit, &mut assembly);
     let weak_robots = nbc_swarm::weak_robots(&assembly);
-    let circuit = plan.circuit.to_string();
-    let warnings = weak_robots.iter().map(|weak| wording::weak_robot(&circuit, weak, place)).collect();
-    Ok(Compiled { plan, mapping, timing, assembly, weak_robots, warnings })
+    Ok(Compiled { plan, mapping, timing, assembly, weak_robots, warnings: Vec::new() })
 }
 
 fn name_values(program: &Program, circuit: &Instance, assembly: &mut Assembly) {

@@ -1,44 +1,35 @@
 //! The sources of a session: the texts given to it, which hide those of its world, and the results for each.
 
-use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use crate::buildable;
 use crate::checked::Checked;
-use crate::robots::{BuiltIn, RobotSources};
-use nbc_base::source::{CancelFlag, FileError, OverlayWorld, SourceWorld, VerilogError, VerilogFiles, VerilogModules};
+use crate::context::{BuiltIn, CheckContext, Readings, RecordingWorld};
+use nbc_base::source::{OverlayWorld, SharedWorld, SourceWorld};
 use nbc_lang::syntax::KnownDeclarations;
 
 pub(super) struct Documents {
-    world: OverlayWorld<Box<dyn SourceWorld + Send + Sync>>,
-    built_in: BuiltIn,
+    world: OverlayWorld<SharedWorld>,
+    built_in: Arc<BuiltIn>,
     /// Replacements of declared files, by name and path.
     files: Vec<(String, String)>,
     /// By the identities of files.
     revisions: BTreeMap<String, u64>,
-    known: BTreeMap<String, Known>,
+    known: BTreeMap<String, Arc<Checked>>,
     readings: Readings,
     parsed: KnownDeclarations,
 }
 
-/// Results of reading Verilog, by the paths of the files.
-type Readings = BTreeMap<Vec<String>, (VerilogFiles, VerilogModules)>;
-
-struct Known {
-    checked: Arc<Checked>,
-    asked: BTreeSet<String>,
-}
-
 impl Documents {
-    pub(super) fn new(world: Box<dyn SourceWorld + Send + Sync>) -> Self {
+    pub(super) fn new(world: SharedWorld) -> Self {
         Self {
             world: OverlayWorld::new(world),
-            built_in: BuiltIn::default(),
+            built_in: Arc::default(),
             files: Vec::new(),
             revisions: BTreeMap::new(),
             known: BTreeMap::new(),
-            readings: Readings::new(),
+            readings: Readings::default(),
             parsed: KnownDeclarations::default(),
         }
     }
@@ -73,27 +64,28 @@ impl Documents {
 
     pub(super) fn checked(&mut self, path: &str) -> Arc<Checked> {
         if let Some(known) = self.known.get(path) {
-            return known.checked.clone();
+            return known.clone();
         }
         let revision = self.revisions.get(&self.world.identity(path)).copied().unwrap_or_default();
-        let readings = RefCell::new(std::mem::take(&mut self.readings));
-        let asking =
-            RecordingWorld { world: &self.world, asked: RefCell::default(), readings, is_cancelled: Cell::default() };
-        let mut checked = Checked::read(&asking, path, revision, &mut self.parsed);
+        let context = CheckContext {
+            world: RecordingWorld::of(self.world.clone(), self.readings.clone()),
+            built_in: self.built_in.clone(),
+            netlists: Mutex::default(),
+            compiled: Mutex::default(),
+        };
+        let mut checked = Checked::read(Arc::new(context), path, revision, &mut self.parsed);
         if !checked.has_errors() {
-            let robots = RobotSources { world: &asking, built_in: &self.built_in, file: path };
-            let cancel = asking.cancel();
-            checked.diagnostics.extend(buildable::faults(robots, &checked.program, &self.files));
-            asking.is_cancelled.set(asking.is_cancelled.get() || cancel.is_raised());
+            let cancel = checked.context.world.cancel();
+            let faults = buildable::faults(&checked, &self.files);
+            checked.is_cancelled |= cancel.is_raised();
+            checked.diagnostics.extend(faults);
             checked.diagnostics.sort_by_key(|diagnostic| diagnostic.labels.first().map(|label| label.span));
         }
+        checked.is_cancelled |= checked.context.world.is_cancelled();
         let checked = Arc::new(checked);
-        self.readings = asking.readings.into_inner();
-        if asking.is_cancelled.get() || checked.is_cancelled {
-            return checked;
+        if !checked.is_cancelled {
+            self.known.insert(path.to_owned(), checked.clone());
         }
-        let known = Known { checked: checked.clone(), asked: asking.asked.into_inner() };
-        self.known.insert(path.to_owned(), known);
         checked
     }
 
@@ -101,65 +93,14 @@ impl Documents {
         self.known.contains_key(path)
     }
 
-    pub(super) fn asked(&self, path: &str) -> impl Iterator<Item = &str> {
-        self.known.get(path).into_iter().flat_map(|known| &known.asked).map(String::as_str)
+    pub(super) fn asked(&self, path: &str) -> BTreeSet<String> {
+        self.known.get(path).map(|known| known.context.world.asked()).unwrap_or_default()
     }
 
     fn forget(&mut self, path: &str) {
         let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
         let changed = [path, folder].map(|path| self.world.identity(path));
-        self.known.retain(|_, known| changed.iter().all(|path| !known.asked.contains(path)));
-    }
-}
-
-struct RecordingWorld<'a> {
-    world: &'a dyn SourceWorld,
-    asked: RefCell<BTreeSet<String>>,
-    readings: RefCell<Readings>,
-    is_cancelled: Cell<bool>,
-}
-
-impl RecordingWorld<'_> {
-    fn note(&self, path: &str) {
-        self.asked.borrow_mut().insert(self.world.identity(path));
-    }
-}
-
-impl SourceWorld for RecordingWorld<'_> {
-    fn read(&self, path: &str) -> Result<String, FileError> {
-        self.note(path);
-        self.world.read(path)
-    }
-
-    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
-        self.note(path);
-        self.world.read_bytes(path)
-    }
-
-    fn read_verilog(&self, files: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
-        let paths: Vec<String> = files.files.iter().map(|file| file.path.clone()).collect();
-        let known = self.readings.borrow().get(&paths).filter(|(known, _)| known == files).cloned();
-        if let Some((_, modules)) = known {
-            return Ok(modules);
-        }
-        let modules = self.world.read_verilog(files);
-        self.is_cancelled.set(self.is_cancelled.get() || modules == Err(VerilogError::Cancelled));
-        let modules = modules?;
-        self.readings.borrow_mut().insert(paths, (files.clone(), modules.clone()));
-        Ok(modules)
-    }
-
-    fn cancel(&self) -> CancelFlag {
-        self.world.cancel()
-    }
-
-    fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
-        self.note(folder);
-        self.world.list(folder)
-    }
-
-    fn identity(&self, path: &str) -> String {
-        self.world.identity(path)
+        self.known.retain(|_, known| !changed.iter().any(|path| known.context.world.has_asked(path)));
     }
 }
 
@@ -168,14 +109,14 @@ mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     use super::*;
-    use nbc_base::source::{MemoryWorld, VerilogModule};
+    use nbc_base::source::{FileError, MemoryWorld, VerilogError, VerilogFiles, VerilogModule, VerilogModules};
 
     const INVERTER: &str = "circuit inverter(a) -> (q) { q = not a }";
 
     fn documents(files: &[(&str, &str)]) -> Documents {
         let mut world = MemoryWorld::default();
         files.iter().for_each(|(path, text)| world.insert(*path, *text));
-        Documents::new(Box::new(world))
+        Documents::new(Arc::new(world))
     }
 
     fn circuits(checked: &Checked) -> Vec<&str> {
@@ -244,7 +185,7 @@ mod tests {
         world.insert("a.nb", "use \"f.v\"\ncircuit g(a) -> (q) { q = f(a) }");
         world.insert("f.v", "module f(input a, output q);");
         let count = Arc::new(AtomicUsize::new(0));
-        let mut documents = Documents::new(Box::new(Translator { world, count: count.clone(), is_cancelled: false }));
+        let mut documents = Documents::new(Arc::new(Translator { world, count: count.clone(), is_cancelled: false }));
         let mut check = |path, text: &str| {
             documents.update(path, 0, text);
             assert_eq!(documents.checked("a.nb").diagnostics, []);
@@ -265,7 +206,7 @@ mod tests {
         let mut world = MemoryWorld::default();
         world.insert("a.nb", "use \"f.v\"\ncircuit g(a) -> (q) { q = f(a) }");
         world.insert("f.v", "module f(input a, output q);");
-        let mut documents = Documents::new(Box::new(Translator { world, count: Arc::default(), is_cancelled: true }));
+        let mut documents = Documents::new(Arc::new(Translator { world, count: Arc::default(), is_cancelled: true }));
         assert!(documents.checked("a.nb").has_errors());
         assert!(!documents.is_known("a.nb"));
         assert_eq!(documents.checked("a.nb").diagnostics, []);

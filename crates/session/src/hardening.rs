@@ -78,7 +78,7 @@ impl Session {
         loop {
             let compile = CompileOptions { without: without.clone(), ..options.clone() };
             let options = TestOptions { level: Some(Level::Physics), compile };
-            let cases = tests.iter().map(|test| self.cases(checked, test, &options)).collect::<Result<Vec<_>, _>>();
+            let cases = tests.iter().map(|test| checked.cases(test, &options)).collect::<Result<Vec<_>, _>>();
             match (cases, without.pop()) {
                 (Err(faults), None) => return Err(faults.into()),
                 (Err(_), Some(last)) => needed.push(last),

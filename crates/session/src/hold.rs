@@ -1,6 +1,6 @@
 //! The hold of each row of a test, and warnings of rows that end before their robots have settled.
 
-use crate::compile::Compiled;
+use crate::compiled::Compiled;
 use crate::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{CircuitTest, Hold, TestRow};

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::compile::Compiled;
+use crate::compiled::Compiled;
 use crate::mapping::Mapping;
 use crate::report::{self, PageSwarm, Schematic, SchematicPages, Scheme, Svg, SwarmOutcome, SwarmTiming};
 use crate::run_report::RunReport;

@@ -1,6 +1,6 @@
 //! A part of a live swarm's run, simulated again with its poses recorded, for pictures and pages.
 
-use crate::compile::Compiled;
+use crate::compiled::Compiled;
 use crate::observer::Observer;
 use crate::simulation::{self, SimulationRun};
 use crate::swarm_run::{DrivenSwarm, LIVE_CYCLES, Physics};

@@ -62,7 +62,7 @@ impl Session {
         test: &CircuitTest,
         options: &TestOptions,
     ) -> Result<RunningTest, Diagnostics> {
-        Ok(RunningTest::new(self.physics.clone(), self.cases(checked, test, options)?))
+        Ok(RunningTest::new(self.physics.clone(), checked.cases(test, options)?))
     }
 
     pub fn run_case(&self, case: TestCase, observer: &mut dyn Observer) -> TestRun {

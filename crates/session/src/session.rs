@@ -3,25 +3,16 @@
 
 use std::sync::Arc;
 
-use crate::claims::ClaimSearch;
 use crate::documents::Documents;
 use crate::observer::Observer;
 use crate::replay::{self, Excerpt};
-use crate::robots::RobotSources;
-use crate::script::EnvironmentRun;
 use crate::simulation::{self, SimulationRun};
 use crate::swarm_run::Physics;
-use crate::test::{self, TestCase, TestOptions};
-use crate::{
-    Checked, CompileOptions, Compiled, Formatted, Mapping, RunList, RunReport, compile, formatted, plan, start_bodies,
-    store, swarm_run,
-};
-use nbc_base::budget::Limit;
+use crate::test::TestOptions;
+use crate::{Checked, CompileOptions, Compiled, Formatted, RunList, RunReport, formatted, store, swarm_run};
 use nbc_base::diag::Diagnostics;
-use nbc_base::model::{CircuitTest, Claim, Evolution, Instance, Library, Simulation};
-use nbc_base::source::{SourceWorld, Sources, Span};
-use nbc_circuit::properties::SearchBudget;
-use nbc_circuit::{CancelFlag, CellLibrary, RegisterForm, elaborate};
+use nbc_base::model::{Library, Simulation};
+use nbc_base::source::{SourceWorld, Sources};
 use nbc_sim::Simulator;
 use nbc_swarm::{Level, LiveSwarm, Room};
 
@@ -36,7 +27,7 @@ impl Session {
     pub const LIVE_CYCLES: usize = swarm_run::LIVE_CYCLES;
 
     pub fn new(world: impl SourceWorld + Send + Sync + 'static) -> Self {
-        Self { documents: Documents::new(Box::new(world)), physics: Physics::default() }
+        Self { documents: Documents::new(Arc::new(world)), physics: Physics::default() }
     }
 
     pub fn with_simulator(mut self, simulator: Simulator) -> Self {
@@ -81,7 +72,7 @@ impl Session {
     }
 
     pub fn dependencies(&self, path: &str) -> Vec<String> {
-        self.documents.asked(path).map(str::to_owned).collect()
+        self.documents.asked(path).into_iter().collect()
     }
 
     pub fn open(&mut self, path: &str) -> Result<Arc<Checked>, Diagnostics> {
@@ -106,113 +97,6 @@ impl Session {
         read.map_err(|list| Diagnostics { list, sources: Sources::default() })
     }
 
-    /// The robots of a declared library or the default one, best first for each function.
-    pub fn robots(
-        &self,
-        checked: &Checked,
-        library: Option<&str>,
-        options: &CompileOptions,
-    ) -> Result<Library, Diagnostics> {
-        let robots = plan::robots(self.sources(checked), &checked.program, library, options);
-        let robots = robots.map_err(|faults| checked.fail(faults))?;
-        Ok(nbc_swarm::prefer(robots, options.objective))
-    }
-
-    /// `runs` is the folder of other evolutions' runs.
-    pub fn started(&self, checked: &Checked, evolution: &Evolution, runs: &str) -> Result<Evolution, Diagnostics> {
-        let started = start_bodies::started(self.sources(checked), &checked.program, evolution, runs);
-        started.map_err(|faults| checked.fail(faults))
-    }
-
-    fn sources<'a>(&'a self, checked: &'a Checked) -> RobotSources<'a> {
-        RobotSources { world: self.documents.world(), built_in: self.documents.built_in(), file: &checked.path }
-    }
-
-    /// Maps a circuit onto the robots of its swarm, and proves the result.
-    pub fn map(&self, checked: &Checked, circuit: &Instance, options: &CompileOptions) -> Result<Mapping, Diagnostics> {
-        let plan = plan::plan(self.sources(checked), &checked.program, circuit, options);
-        let plan = plan.map_err(|faults| checked.fail(faults))?;
-        let source = elaborate(&checked.program, circuit).map_err(|faults| checked.fail(faults))?;
-        let mapping = compile::map(source, &plan, &options.mapping(), checked.place(circuit), Limit::Cells);
-        mapping.map_err(|faults| checked.fail(faults))
-    }
-
-    pub fn map_net(
-        &self,
-        checked: &Checked,
-        circuit: &Instance,
-        net: Span,
-        options: &CompileOptions,
-    ) -> Result<Mapping, Diagnostics> {
-        let plan = plan::plan(self.sources(checked), &checked.program, circuit, options);
-        let plan = plan.map_err(|faults| checked.fail(faults))?;
-        let mapping = compile::map_net(&checked.program, &plan, net, options.mapping());
-        mapping.map_err(|faults| checked.fail(faults))
-    }
-
-    /// Maps a circuit onto cells that need not be robots, and proves the result.
-    pub fn map_onto(
-        &self,
-        checked: &Checked,
-        circuit: &Instance,
-        cells: &CellLibrary,
-        options: &CompileOptions,
-    ) -> Result<Mapping, Diagnostics> {
-        let source = elaborate(&checked.program, circuit).map_err(|faults| checked.fail(faults))?;
-        let place = checked.place(circuit);
-        let mapping = compile::map_onto(source, cells, &options.mapping(), RegisterForm::Nands, place, Limit::Cells);
-        mapping.map_err(|faults| checked.fail(faults))
-    }
-
-    /// Compiles a circuit to the swarm that is declared for it: elaborate, map, prove, time, assemble.
-    pub fn compile(
-        &self,
-        checked: &Checked,
-        circuit: &Instance,
-        options: &CompileOptions,
-    ) -> Result<Compiled, Diagnostics> {
-        let (program, place) = (&checked.program, checked.place(circuit));
-        let plan = plan::plan(self.sources(checked), program, circuit, options);
-        let compiled = plan.and_then(|plan| {
-            let source = elaborate(program, &plan.circuit)?;
-            compile::compile(program, source, plan, &options.mapping(), place)
-        });
-        compiled.map_err(|faults| checked.fail(faults))
-    }
-
-    /// One case for each swarm that is declared for the test's circuit, or one at the level of logic.
-    pub fn cases(
-        &self,
-        checked: &Checked,
-        test: &CircuitTest,
-        options: &TestOptions,
-    ) -> Result<Vec<TestCase>, Diagnostics> {
-        test::cases(self.sources(checked), &checked.program, test, options).map_err(|faults| checked.fail(faults))
-    }
-
-    /// What the environment of a test does in its first rows in physics; `None` without an environment.
-    pub fn environment(
-        &self,
-        checked: &Checked,
-        test: &CircuitTest,
-        rows: usize,
-        options: &CompileOptions,
-    ) -> Result<Option<EnvironmentRun>, Diagnostics> {
-        let run = test::environment(self.sources(checked), &checked.program, test, rows, options);
-        run.map_err(|faults| checked.fail(faults))
-    }
-
-    /// Begins to decide a claim. The search ends when its budget does, or when the flag is raised.
-    pub fn prove(
-        &self,
-        checked: &Checked,
-        claim: &Claim,
-        budget: SearchBudget,
-        cancel: CancelFlag,
-    ) -> Result<ClaimSearch, Diagnostics> {
-        ClaimSearch::new(&checked.program, claim, budget, cancel).map_err(|faults| checked.fail(faults))
-    }
-
     pub fn simulate(
         &self,
         checked: &Checked,
@@ -220,8 +104,7 @@ impl Session {
         options: &CompileOptions,
         observer: &mut dyn Observer,
     ) -> Result<SimulationRun, Diagnostics> {
-        let compiled = simulation::compiled(self.sources(checked), &checked.program, simulation, options);
-        let compiled = compiled.map_err(|faults| checked.fail(faults))?;
+        let compiled = simulation::compiled(checked, simulation, options)?;
         Ok(simulation::run(&self.physics, simulation, compiled, observer))
     }
 

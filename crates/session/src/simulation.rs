@@ -1,14 +1,12 @@
 //! Simulations: a declared swarm under a schedule of its inputs, without expected outputs.
 
-use crate::compile::{self, Compiled};
+use crate::checked::Checked;
+use crate::compiled::Compiled;
 use crate::observer::Observer;
 use crate::options::CompileOptions;
-use crate::plan;
-use crate::robots::RobotSources;
 use crate::swarm_run::{Physics, RunEnd, SwarmRun};
-use nbc_base::diag::Diagnostic;
-use nbc_base::model::{Program, Simulation};
-use nbc_circuit::elaborate;
+use nbc_base::diag::{Diagnostic, Diagnostics};
+use nbc_base::model::Simulation;
 use nbc_swarm::{SimulationResult, SwarmTrace};
 
 /// A simulation with its results.
@@ -27,16 +25,15 @@ impl SimulationRun {
 }
 
 pub(super) fn compiled(
-    sources: RobotSources<'_>,
-    program: &Program,
+    checked: &Checked,
     simulation: &Simulation,
     options: &CompileOptions,
-) -> Result<Compiled, Vec<Diagnostic>> {
-    let swarm = program.swarm(&simulation.swarm);
-    let mut plan = plan::of_swarm(sources, program, &simulation.circuit, swarm, options)?;
-    plan.world = simulation.world.clone().unwrap_or(plan.world);
-    let source = elaborate(program, &plan.circuit)?;
-    compile::compile(program, source, plan, &options.mapping(), simulation.span)
+) -> Result<Compiled, Diagnostics> {
+    let swarm = checked.program.swarm(&simulation.swarm);
+    checked.told(checked.plan_of(&simulation.circuit, swarm, options).and_then(|mut plan| {
+        plan.world = simulation.world.clone().unwrap_or(plan.world);
+        checked.compiled(plan, options, simulation.span)
+    }))
 }
 
 pub(super) fn run(

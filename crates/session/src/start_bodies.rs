@@ -1,27 +1,28 @@
 //! The robots with which an evolution begins: those of its library that fit into its box.
 
-use crate::robots::RobotSources;
+use crate::checked::Checked;
 use crate::wording;
-use nbc_base::diag::Diagnostic;
-use nbc_base::model::{Body, Evolution, Palette, Program, StartBodies};
+use nbc_base::diag::{Diagnostic, Diagnostics};
+use nbc_base::model::{Body, Evolution, Palette, StartBodies};
 
-pub(super) fn started(
-    sources: RobotSources<'_>,
-    program: &Program,
-    evolution: &Evolution,
-    runs: &str,
-) -> Result<Evolution, Vec<Diagnostic>> {
-    let Some(declared) = evolution.start.as_ref().and_then(|start| program.library(&start.library)) else {
-        return Ok(evolution.clone());
-    };
-    let library = sources.library(declared, runs)?;
-    let bodies: Vec<Vec<String>> =
-        library.robots.iter().filter_map(|robot| placed(&robot.body, evolution)).map(|body| body.rows()).collect();
-    if bodies.is_empty() {
-        return Err(vec![wording::no_start_body(&evolution.name, &declared.name, declared.span)]);
+impl Checked {
+    /// `runs` is the folder of other evolutions' runs.
+    pub fn started(&self, evolution: &Evolution, runs: &str) -> Result<Evolution, Diagnostics> {
+        self.told(self.with_start(evolution, runs))
     }
-    let start = StartBodies { library: declared.name.clone(), bodies };
-    Ok(Evolution { start: Some(start), ..evolution.clone() })
+
+    pub(super) fn with_start(&self, evolution: &Evolution, runs: &str) -> Result<Evolution, Vec<Diagnostic>> {
+        let declared = evolution.start.as_ref().and_then(|start| self.program.library(&start.library));
+        let Some(declared) = declared else { return Ok(evolution.clone()) };
+        let robots = self.library(declared, runs)?.robots;
+        let placed = robots.iter().filter_map(|robot| placed(&robot.body, evolution));
+        let bodies: Vec<Vec<String>> = placed.map(|body| body.rows()).collect();
+        if bodies.is_empty() {
+            return Err(vec![wording::no_start_body(&evolution.name, &declared.name, declared.span)]);
+        }
+        let start = StartBodies { library: declared.name.clone(), bodies };
+        Ok(Evolution { start: Some(start), ..evolution.clone() })
+    }
 }
 
 /// A body on the ground in the middle of the evolution's box; `None` if it does not fit, or has other materials.

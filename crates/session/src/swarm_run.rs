@@ -2,7 +2,7 @@
 
 use core::task::Poll;
 
-use crate::compile::Compiled;
+use crate::compiled::Compiled;
 use crate::observer::{CycleRunner, Observer};
 use nbc_sim::Simulator;
 use nbc_swarm::{Assembly, LiveSwarm, Room, SwarmTask, SwarmTrace};

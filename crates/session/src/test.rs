@@ -2,23 +2,23 @@
 
 use std::sync::Arc;
 
-use crate::compile::{Compiled, compile, need_beat};
+use crate::checked::Checked;
+use crate::compile::need_beat;
+use crate::compiled::Compiled;
 use crate::contents::declared_file;
 use crate::equivalence::Equivalence;
 use crate::hold;
 use crate::options::CompileOptions;
-use crate::plan::plans;
-use crate::robots::RobotSources;
 use crate::script::{EnvironmentRun, Performance, PerformedRow};
 use crate::swarm_run::{RunEnd, SwarmRun};
 use crate::test_timing::{TestTiming, TimedTest};
 use crate::waves::steps;
 use crate::wording;
 use nbc_base::budget::{CYCLE_BITS, Limit, WorkBudget};
-use nbc_base::diag::Diagnostic;
+use nbc_base::diag::{Diagnostic, Diagnostics};
 use nbc_base::model::{Base, CircuitTest, NamedWorld, PhysicsWorld, Program, Stimulation, TestRow};
 use nbc_circuit::waves::WaveMachine;
-use nbc_circuit::{Netlist, Settled, elaborate, elaborate_reference};
+use nbc_circuit::{Netlist, Settled, elaborate_reference};
 use nbc_swarm::{Level, RowHold, SwarmBits, SwarmTask, TestVerdict, WorldTrial};
 
 /// Swarms of at least this many robots are tested at the level of logic unless physics is requested.
@@ -67,106 +67,111 @@ pub struct TestCase {
 
 #[derive(Clone, Debug)]
 pub(super) enum TestSubject {
-    Gates(Netlist, Arc<[TestRow]>),
+    Gates(Arc<Netlist>, Arc<[TestRow]>),
     /// Gates whose rows depend on what they do.
     Script(Box<Performance>),
     Ever(Box<Equivalence>),
     Robots(Box<TimedTest>),
 }
 
-/// One for each declared swarm in each world of the test, or one at the level of logic, as for each test for ever.
-pub(super) fn cases(
-    sources: RobotSources<'_>,
-    program: &Program,
-    test: &CircuitTest,
-    options: &TestOptions,
-) -> Result<Vec<TestCase>, Vec<Diagnostic>> {
-    for (name, _) in &options.compile.files {
-        declared_file(program, name).map_err(|fault| vec![fault])?;
+impl Checked {
+    /// One case for each declared swarm in each world of the test, or one at the level of logic, as for each test for
+    /// ever.
+    pub fn cases(&self, test: &CircuitTest, options: &TestOptions) -> Result<Vec<TestCase>, Diagnostics> {
+        self.told(self.ready(test, options))
     }
-    let netlist = elaborate(program, &test.circuit)?;
-    let own = Arc::new(test.clone());
-    let case = |subject| TestCase { test: own.clone(), subject };
-    if let Stimulation::Ever { other, reference } = &test.stimulation {
-        let cancel = options.compile.cancel.clone();
-        let subject = Equivalence::new(program, test, netlist, (other, reference), cancel)?;
-        return Ok(vec![case(TestSubject::Ever(Box::new(subject)))]);
-    }
-    let level = options.level;
-    let performance = performance(sources, program, test, &netlist, &options.compile)?;
-    let logic = |netlist| {
-        let subject = match &performance {
-            Some(performance) => TestSubject::Script(Box::new(performance.clone())),
-            None => TestSubject::Gates(netlist, rows(program, test)?.into()),
+
+    fn ready(&self, test: &CircuitTest, options: &TestOptions) -> Result<Vec<TestCase>, Vec<Diagnostic>> {
+        let program = &self.program;
+        for (name, _) in &options.compile.files {
+            declared_file(&self.program, name).map_err(|fault| vec![fault])?;
+        }
+        let netlist = self.netlist(&test.circuit)?;
+        let own = Arc::new(test.clone());
+        let case = |subject| TestCase { test: own.clone(), subject };
+        if let Stimulation::Ever { other, reference } = &test.stimulation {
+            let cancel = options.compile.cancel.clone();
+            let subject = Equivalence::new(program, test, Netlist::clone(&netlist), (other, reference), cancel)?;
+            return Ok(vec![case(TestSubject::Ever(Box::new(subject)))]);
+        }
+        let level = options.level;
+        let performance = self.performance(test, &netlist, &options.compile)?;
+        let logic = |netlist| {
+            let subject = match &performance {
+                Some(performance) => TestSubject::Script(Box::new(performance.clone())),
+                None => TestSubject::Gates(netlist, rows(program, test)?.into()),
+            };
+            Ok(vec![case(subject)])
         };
-        Ok(vec![case(subject)])
-    };
-    if level == Some(Level::Logic) || (level.is_none() && netlist.cells().count() >= SURELY_LARGE) {
-        return logic(netlist);
-    }
-    let plans = plans(sources, program, &test.circuit, &options.compile)?;
-    let mut rows_of_test = None;
-    let mut cases = Vec::new();
-    for plan in plans {
-        let worlds = if test.worlds.is_empty() { vec![plan.world.clone()] } else { test.worlds.clone() };
-        let plan = plan.in_world(worlds[0].clone());
-        let mut compiled = compile(program, netlist.clone(), plan, &options.compile.mapping(), test.span)?;
-        if level.is_none() && compiled.assembly.members.len() >= LARGE {
+        if level == Some(Level::Logic) || (level.is_none() && netlist.cells().count() >= SURELY_LARGE) {
             return logic(netlist);
         }
-        let (mut rows, printed) = match &rows_of_test {
-            Some(found) => Clone::clone(found),
-            None => rows_of_test.insert(physical_rows(program, test, performance.clone(), &options.compile)?).clone(),
-        };
-        let timing = match &compiled.mapping.waves {
-            Some(machine) => {
-                need_beat(&worlds, test.span)?;
-                rows = if performance.is_some() { edges_only(rows, machine) } else { rows };
-                rows = steps(test, &rows, machine.clock, Some(machine.cycles_per_step() as u32))?;
-                permit_cycles(test, machine.cycles(rows.len()) as u64)?;
-                TestTiming::Waves
+        let plans = self.plans(&test.circuit, &options.compile)?;
+        let mut rows_of_test = None;
+        let mut cases = Vec::new();
+        for plan in plans {
+            let worlds = if test.worlds.is_empty() { vec![plan.world.clone()] } else { test.worlds.clone() };
+            let plan = plan.in_world(worlds[0].clone());
+            let mut compiled = self.compiled(plan, &options.compile, test.span)?;
+            if level.is_none() && compiled.assembly.members.len() >= LARGE {
+                return logic(netlist);
             }
-            None => {
-                let row_holds = hold::row_holds(&rows, &netlist, &compiled);
-                permit_cycles(test, row_holds.iter().map(|row_hold| row_hold.hold as u64).sum())?;
-                compiled.warnings.extend(short_holds(program, test, &rows, &row_holds, &compiled));
-                TestTiming::Holds(row_holds)
-            }
-        };
-        let first =
-            TimedTest { test: own.clone(), rows: rows.into(), compiled, timing, ends_at_failure: false, printed };
-        let timed = |world| Box::new(first.in_world(world));
-        cases.extend(worlds.into_iter().map(|world| case(TestSubject::Robots(timed(world)))));
+            let (mut rows, printed) = match &rows_of_test {
+                Some(found) => Clone::clone(found),
+                None => {
+                    rows_of_test.insert(physical_rows(program, test, performance.clone(), &options.compile)?).clone()
+                }
+            };
+            let timing = match &compiled.mapping.waves {
+                Some(machine) => {
+                    need_beat(&worlds, test.span)?;
+                    rows = if performance.is_some() { edges_only(rows, machine) } else { rows };
+                    rows = steps(test, &rows, machine.clock, Some(machine.cycles_per_step() as u32))?;
+                    permit_cycles(test, machine.cycles(rows.len()) as u64)?;
+                    TestTiming::Waves
+                }
+                None => {
+                    let row_holds = hold::row_holds(&rows, &netlist, &compiled);
+                    permit_cycles(test, row_holds.iter().map(|row_hold| row_hold.hold as u64).sum())?;
+                    compiled.warnings.extend(short_holds(program, test, &rows, &row_holds, &compiled));
+                    TestTiming::Holds(row_holds)
+                }
+            };
+            let first =
+                TimedTest { test: own.clone(), rows: rows.into(), compiled, timing, ends_at_failure: false, printed };
+            let timed = |world| Box::new(first.in_world(world));
+            cases.extend(worlds.into_iter().map(|world| case(TestSubject::Robots(timed(world)))));
+        }
+        Ok(cases)
     }
-    Ok(cases)
+
+    fn performance(
+        &self,
+        test: &CircuitTest,
+        netlist: &Netlist,
+        options: &CompileOptions,
+    ) -> Result<Option<Performance>, Vec<Diagnostic>> {
+        let Stimulation::Script(script) = &test.stimulation else { return Ok(None) };
+        Performance::new(&self.context.world, &self.program, test, script, netlist, &options.files).map(Some)
+    }
+
+    /// What the environment of a test does in its first rows in physics; `None` without an environment.
+    pub fn environment(
+        &self,
+        test: &CircuitTest,
+        rows: usize,
+        options: &CompileOptions,
+    ) -> Result<Option<EnvironmentRun>, Diagnostics> {
+        let netlist = self.netlist(&test.circuit);
+        let performance = self.told(netlist.and_then(|netlist| self.performance(test, &netlist, options)))?;
+        let watched = performance.map_or(Ok(None), |performance| performance.watch(rows));
+        watched.map_err(|fault| self.fail(vec![fault]))
+    }
 }
 
 fn permit_cycles(test: &CircuitTest, cycles: u64) -> Result<(), Vec<Diagnostic>> {
     let bits = test.inputs.iter().map(|column| column.width as u64).sum::<u64>() + CYCLE_BITS;
     Limit::CycleBits.permit(cycles.saturating_mul(bits)).map_err(|over| vec![over.at(test.span)])
-}
-
-fn performance(
-    sources: RobotSources<'_>,
-    program: &Program,
-    test: &CircuitTest,
-    netlist: &Netlist,
-    options: &CompileOptions,
-) -> Result<Option<Performance>, Vec<Diagnostic>> {
-    let Stimulation::Script(script) = &test.stimulation else { return Ok(None) };
-    Performance::new(sources.world, program, test, script, netlist, &options.files).map(Some)
-}
-
-pub(super) fn environment(
-    sources: RobotSources<'_>,
-    program: &Program,
-    test: &CircuitTest,
-    rows: usize,
-    options: &CompileOptions,
-) -> Result<Option<EnvironmentRun>, Vec<Diagnostic>> {
-    let netlist = elaborate(program, &test.circuit)?;
-    let performance = performance(sources, program, test, &netlist, options)?;
-    performance.map_or(Ok(None), |performance| performance.watch(rows)).map_err(|fault| vec![fault])
 }
 
 /// All outputs are checked in the rows of a script.

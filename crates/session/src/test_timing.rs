@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::compile::Compiled;
+use crate::compiled::Compiled;
 use crate::hold;
 use crate::swarm_run::RunEnd;
 use nbc_base::model::{CircuitTest, NamedWorld, TestRow};

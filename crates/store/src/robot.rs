@@ -71,11 +71,14 @@ impl RobotRecord {
 }
 
 pub fn read_robot(file: &SourceFile) -> Result<Robot, Diagnostic> {
-    let version: Version = yaml::read(file)?;
-    if version.format != FORMAT {
-        return Err(wording::robot_format(file, version.format, FORMAT, yaml::key_span(file, "format")));
+    let read = yaml::read::<RobotRecord>(file);
+    if !read.as_ref().is_ok_and(|read| read.format == FORMAT) {
+        let version: Version = yaml::read(file)?;
+        if version.format != FORMAT {
+            return Err(wording::robot_format(file, version.format, FORMAT, yaml::key_span(file, "format")));
+        }
     }
-    let read: RobotRecord = yaml::read(file)?;
+    let read = read?;
     let palette = read.materials.unwrap_or_else(Palette::paper);
     let robot = Robot {
         name: read.name,

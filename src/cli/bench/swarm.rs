@@ -72,7 +72,7 @@ fn assembly() -> Result<Assembly, Failure> {
     session.update(FILE, 1, SOURCE);
     let file = session.open(FILE)?;
     let circuit = file.circuit(&Choice::default())?;
-    Ok(session.compile(&file, &circuit, &CompileOptions::default())?.assembly)
+    Ok(file.compile(&circuit, &CompileOptions::default())?.assembly)
 }
 
 /// Lane-substeps per second by that clock, or in wall-clock time if the system does not have it. Poses are recorded as

@@ -12,14 +12,13 @@ use nbc_swarm::Room;
 impl DrawRequest {
     /// The circuit of the chosen test, else the one that `nbc build` would build.
     pub(super) fn compiled(&self) -> Result<Compiled, Failure> {
-        let mut session = Session::new(DiskWorld);
-        let file = session.open(&self.what)?;
+        let file = Session::new(DiskWorld).open(&self.what)?;
         let mut choice = self.making.choice();
         if let Some(name) = &self.test {
             choice.circuit = Some(test_called(&file, name)?.circuit.to_string());
         }
         let circuit = file.circuit(&choice)?;
-        Ok(session.compile(&file, &circuit, &self.making.options()?)?)
+        Ok(file.compile(&circuit, &self.making.options()?)?)
     }
 
     /// The chosen test or the first, or the first simulation if the file has no test. Poses are recorded if there is

@@ -213,7 +213,7 @@ impl EvolveArguments {
         let started = |evolution: &Evolution| match &checked {
             None => Ok::<_, Failure>(evolution.clone()),
             // Others read no robots.
-            Some(checked) if evolution.start.is_some() => Ok(session.started(checked, evolution, self.runs()?)?),
+            Some(checked) if evolution.start.is_some() => Ok(checked.started(evolution, self.runs()?)?),
             Some(_) => Ok(evolution.clone()),
         };
         let known = || program.evolutions.iter().map(|evolution| evolution.name.clone()).collect::<Vec<_>>();

@@ -130,7 +130,7 @@ impl TestArguments {
         interrupt: &Interrupt,
         context: &mut Context,
     ) -> Result<Status, Failure> {
-        let cases = self.cases(session, files, interrupt)?;
+        let cases = self.cases(files, interrupt)?;
         if let Some(folder) = &self.checkpoints {
             store::create_folder(folder).map_err(|error| Failure::unwritable(folder, &error))?;
         }
@@ -172,12 +172,7 @@ impl TestArguments {
         }
     }
 
-    fn cases(
-        &self,
-        session: &Session,
-        files: &[Arc<Checked>],
-        interrupt: &Interrupt,
-    ) -> Result<Vec<Numbered>, Failure> {
+    fn cases(&self, files: &[Arc<Checked>], interrupt: &Interrupt) -> Result<Vec<Numbered>, Failure> {
         self.named.check(files)?;
         let (mut cases, choice, making) = (Vec::new(), self.making.choice(), self.making.options()?);
         for (number, file) in files.iter().enumerate() {
@@ -185,7 +180,7 @@ impl TestArguments {
             let compile = CompileOptions { cancel: interrupt.cancel(), ..compile };
             let options = TestOptions { level: self.level(), compile };
             for test in RunList::chosen(file, self.only.as_deref(), &choice)?.tests {
-                cases.extend(session.cases(file, test, &options)?.into_iter().map(|case| (number, case)));
+                cases.extend(file.cases(test, &options)?.into_iter().map(|case| (number, case)));
             }
         }
         let named = self.only.as_ref().or(choice.swarm.as_ref()).or(choice.circuit.as_ref());

@@ -102,7 +102,7 @@ pub fn performs(session: &mut Session, path: &str) {
     let checked = session.open(path).unwrap_or_else(|error| panic!("{error:?}"));
     let options = TestOptions { level: Some(Level::Logic), ..TestOptions::default() };
     for test in checked.program.tests.iter().filter(|test| depends(test)) {
-        let case = session.cases(&checked, test, &options).unwrap().remove(0);
+        let case = checked.cases(test, &options).unwrap().remove(0);
         let run = session.run_case(case, &mut ());
         assert!(run.verdict.passed, "{} {:?}", test.circuit, run.verdict.rows);
     }

@@ -84,15 +84,15 @@ macro_rules! forward {
 forward!(Arc);
 forward!(Box);
 
-/// Files in memory, for tests and for programs that generate source text.
+/// Files in memory, for tests and for programs that generate source text. A copy has the same bytes.
 #[derive(Clone, Debug, Default)]
 pub struct MemoryWorld {
-    files: BTreeMap<String, Vec<u8>>,
+    files: BTreeMap<String, Arc<[u8]>>,
 }
 
 impl MemoryWorld {
     pub fn insert(&mut self, path: impl Into<String>, contents: impl Into<Vec<u8>>) {
-        self.files.insert(path.into(), contents.into());
+        self.files.insert(path.into(), contents.into().into());
     }
 
     pub fn remove(&mut self, path: &str) {
@@ -106,7 +106,7 @@ impl SourceWorld for MemoryWorld {
     }
 
     fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
-        self.files.get(path).cloned().ok_or(FileError::NotFound)
+        self.files.get(path).map(|bytes| bytes.to_vec()).ok_or(FileError::NotFound)
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {

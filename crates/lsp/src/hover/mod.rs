@@ -17,7 +17,6 @@ use nbc_base::source::Span;
 use nbc_lang::check::{NameKind, NameUse};
 use nbc_lang::syntax::TokenKind;
 use nbc_lang::syntax::tree::DeclarationKind;
-use nbc_session::Session;
 
 pub(super) struct Shown {
     pub(super) place: Span,
@@ -26,9 +25,9 @@ pub(super) struct Shown {
     pub(super) subject: Option<Subject>,
 }
 
-pub(super) fn show(spot: &Spot<'_>, session: &Session, pictures: bool) -> Option<Shown> {
+pub(super) fn show(spot: &Spot<'_>, pictures: bool) -> Option<Shown> {
     if let Some(found) = spot.name() {
-        return Some(of_name(spot, found, session, pictures));
+        return Some(of_name(spot, found, pictures));
     }
     let text = spot.text();
     let tokens = tokens::tokens(text);
@@ -36,14 +35,14 @@ pub(super) fn show(spot: &Spot<'_>, session: &Session, pictures: bool) -> Option
     let word = &text[token.range.clone()];
     let shown = match token.kind {
         TokenKind::Number => constant::text(word),
-        TokenKind::Word => of_word(spot, word, session, pictures),
+        TokenKind::Word => of_word(spot, word, pictures),
         _ => None,
     }?;
     let place = Span::new(spot.file, token.range.start, token.range.end);
     Some(Shown { place, text: shown, subject: None })
 }
 
-fn of_name(spot: &Spot<'_>, found: NameUse, session: &Session, pictures: bool) -> Shown {
+fn of_name(spot: &Spot<'_>, found: NameUse, pictures: bool) -> Shown {
     let mut text = declaration::text(&spot.files, found);
     let name = spot.files.checked.sources.text(found.declared);
     let (more, subject) = match found.kind {
@@ -52,7 +51,7 @@ fn of_name(spot: &Spot<'_>, found: NameUse, session: &Session, pictures: bool) -
         NameKind::Swarm => (None, circuit::of_swarm(&spot.files, name)),
         NameKind::Material => (waves::material(&spot.files, name, pictures), None),
         NameKind::Schedule => (waves::schedule(&spot.files, name, pictures), None),
-        NameKind::Library => (robots::of_library(&spot.files, session, name, pictures), None),
+        NameKind::Library => (robots::of_library(&spot.files, name, pictures), None),
         _ => (None, None),
     };
     if let Some(more) = more {
@@ -61,17 +60,17 @@ fn of_name(spot: &Spot<'_>, found: NameUse, session: &Session, pictures: bool) -
     Shown { place: found.place, text, subject }
 }
 
-fn of_word(spot: &Spot<'_>, word: &str, session: &Session, pictures: bool) -> Option<String> {
+fn of_word(spot: &Spot<'_>, word: &str, pictures: bool) -> Option<String> {
     let around = spot.around();
     if let Some(DeclarationKind::Record(record)) = around.map(|around| &around.kind)
         && spot.offset > record.name.span.end as usize
     {
-        let robot = robots::of_behavior(&spot.files, session, &record.name.text, word, pictures);
+        let robot = robots::of_behavior(&spot.files, &record.name.text, word, pictures);
         return robot.or_else(|| manual::field(record.keyword, word));
     }
     let mut text = manual::keyword(word)?;
     if Operator::parse(word).is_some()
-        && let Some(robot) = robots::of_operator(spot, session, around, word, pictures)
+        && let Some(robot) = robots::of_operator(spot, around, word, pictures)
     {
         text.push_str(&format!("\n{robot}"));
     }

@@ -8,11 +8,11 @@ use crate::spot::Spot;
 use nbc_base::diag::counted;
 use nbc_base::model::{Behavior, Function, Library, Robot};
 use nbc_lang::syntax::tree::{Declaration, DeclarationKind};
+use nbc_session::CompileOptions;
 use nbc_session::report::{self, Listing, Portrait, Scheme};
-use nbc_session::{CompileOptions, Session};
 
-pub(super) fn of_library(files: &Files<'_>, session: &Session, name: &str, pictures: bool) -> Option<String> {
-    let library = session.robots(files.checked, Some(name), &CompileOptions::default()).ok()?;
+pub(super) fn of_library(files: &Files<'_>, name: &str, pictures: bool) -> Option<String> {
+    let library = files.checked.robots(Some(name), &CompileOptions::default()).ok()?;
     let mut seen = BTreeSet::new();
     let best: Vec<&Robot> = library.robots.iter().filter(|robot| seen.insert(robot.function())).collect();
     let (robots, functions) = (counted(library.robots.len(), "robot"), counted(best.len(), "function"));
@@ -30,13 +30,7 @@ pub(super) fn of_library(files: &Files<'_>, session: &Session, name: &str, pictu
 }
 
 /// The robot of the circuit's swarm, or of the default library.
-pub(super) fn of_operator(
-    spot: &Spot<'_>,
-    session: &Session,
-    around: Option<&Declaration>,
-    word: &str,
-    pictures: bool,
-) -> Option<String> {
+pub(super) fn of_operator(spot: &Spot<'_>, around: Option<&Declaration>, word: &str, pictures: bool) -> Option<String> {
     let checked = spot.files.checked;
     let circuit = around.and_then(|around| match &around.kind {
         DeclarationKind::Circuit(circuit) => Some(circuit.name.text.as_str()),
@@ -46,20 +40,14 @@ pub(super) fn of_operator(
     });
     let swarm = checked.program.swarms.iter().find(|swarm| Some(swarm.circuit.circuit.as_str()) == circuit);
     let library = swarm.map(|swarm| swarm.library.as_str());
-    let library = session.robots(checked, library, &CompileOptions::default()).ok()?;
+    let library = checked.robots(library, &CompileOptions::default()).ok()?;
     best(&library, Function::parse(word)?, pictures)
 }
 
-pub(super) fn of_behavior(
-    files: &Files<'_>,
-    session: &Session,
-    library: &str,
-    word: &str,
-    pictures: bool,
-) -> Option<String> {
+pub(super) fn of_behavior(files: &Files<'_>, library: &str, word: &str, pictures: bool) -> Option<String> {
     let function = Function::parse(word).or_else(|| word.parse().ok().map(Behavior::function))?;
     files.checked.program.library(library)?;
-    let library = session.robots(files.checked, Some(library), &CompileOptions::default()).ok()?;
+    let library = files.checked.robots(Some(library), &CompileOptions::default()).ok()?;
     best(&library, function, pictures)
 }
 

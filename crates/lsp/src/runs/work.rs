@@ -22,32 +22,32 @@ pub(super) fn perform(
     if checked.has_errors() {
         return Err(wording::source_errors());
     }
-    let session = Session::new(world.clone()).with_poses(Room::SWARM);
     match &order.task {
         RunTask::Run { level, test, simulation } => {
+            let session = Session::new(world.clone()).with_poses(Room::SWARM);
             let report = run(&session, checked, *level, (*test, *simulation), watcher)?;
             finish(checked, *level, &report, shell, &world)
         }
-        RunTask::Prove(claim) => prove(&session, checked, *claim, watcher, &world),
+        RunTask::Prove(claim) => prove(checked, *claim, watcher, &world),
         RunTask::Schematic(choice) => {
-            let compiled = compile(&session, checked, choice, watcher)?;
+            let compiled = compile(checked, choice, watcher)?;
             let picture = compiled.schematic(Scheme::default()).top();
             let path = written(checked, shell, "schematic.svg", &picture.finish())?;
             Ok(RunOutcome::new(None, "schematic".to_owned(), Some(path), &world))
         }
         RunTask::Timing(choice) => {
-            let timing = compile(&session, checked, choice, watcher)?.swarm_timing();
+            let timing = compile(checked, choice, watcher)?.swarm_timing();
             Ok(RunOutcome::new(None, timing.describe(), None, &world))
         }
     }
 }
 
-fn compile(session: &Session, checked: &Checked, choice: &Choice, watcher: &Watcher) -> Result<Compiled, RequestError> {
+fn compile(checked: &Checked, choice: &Choice, watcher: &Watcher) -> Result<Compiled, RequestError> {
     let circuit = checked.circuit(choice).map_err(|faults| said(&faults))?;
     let first = || checked.swarms(&circuit).first().map(|swarm| swarm.name.clone());
     let swarm = choice.swarm.clone().or_else(first);
     let options = CompileOptions { swarm, ..options(watcher) };
-    let compiled = session.compile(checked, &circuit, &options).map_err(|faults| said(&faults))?;
+    let compiled = checked.compile(&circuit, &options).map_err(|faults| said(&faults))?;
     going(watcher).map(|()| compiled)
 }
 
@@ -76,7 +76,6 @@ fn run(
 }
 
 fn prove(
-    session: &Session,
     checked: &Checked,
     claim: Option<usize>,
     watcher: &mut Watcher,
@@ -87,7 +86,7 @@ fn prove(
     let (mut proved, mut text) = (!claims.is_empty(), String::new());
     for (part, claim) in claims.iter().enumerate() {
         watcher.begin(part, claims.len());
-        let search = session.prove(checked, claim, SearchBudget::SHORT, watcher.stop.clone());
+        let search = checked.prove(claim, SearchBudget::SHORT, watcher.stop.clone());
         let mut search = search.map_err(|faults| said(&faults))?;
         while search.advance(watcher) {}
         going(watcher)?;

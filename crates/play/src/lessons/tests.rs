@@ -158,7 +158,7 @@ fn robots(program: &str) -> usize {
     let circuit = checked.program.tests[0].circuit.clone();
     let swarm = checked.swarms(&circuit).first().map(|swarm| swarm.name.clone());
     let options = CompileOptions { swarm, effort: Effort::Normal, ..Default::default() };
-    session.compile(&checked, &circuit, &options).unwrap().assembly.members.len()
+    checked.compile(&circuit, &options).unwrap().assembly.members.len()
 }
 
 #[test]
