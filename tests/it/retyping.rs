@@ -7,7 +7,7 @@ use proptest::sample::{Index, select};
 
 use crate::support::*;
 
-const INSERTED: [&str; 24] = [
+const INSERTED: [&str; 26] = [
     "",
     "",
     "a",
@@ -31,6 +31,8 @@ const INSERTED: [&str; 24] = [
     "\nmaterial m { period: 42 steps }\n",
     "\nswarm s { circuit: f, registers: mux }\n",
     "\n\nstimulus light\n",
+    "\nenum mood { a, calm }\n",
+    "\ncircuit p[n = 2](c[n]) -> (r) { r = f(b: c[n - 1], a: calm) }\n",
     "= nand(a, b)",
 ];
 

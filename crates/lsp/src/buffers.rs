@@ -1,4 +1,4 @@
-//! The texts that are open in the editor. The session has them.
+//! The sources that are open in the editor; the session has their texts.
 
 use std::collections::BTreeMap;
 

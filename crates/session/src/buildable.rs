@@ -116,7 +116,7 @@ impl Look<'_> {
         self.registers(swarm);
         match swarm.registers {
             RegisterStyle::MasterSlave => self.circuit(&swarm.circuit, &swarm.library, swarm.span),
-            // Those of three senses have multiplexers, and are many to read.
+            // The library `three` has multiplexers, and takes long to read.
             RegisterStyle::Mux if self.is_whole(&swarm.library) && self.is_three(&swarm.library) => {}
             RegisterStyle::Mux => {
                 let Some(robots) = self.library(&swarm.library) else { return };

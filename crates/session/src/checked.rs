@@ -8,8 +8,7 @@ use nbc_base::diag::{Diagnostic, Diagnostics, Finding, findings};
 use nbc_base::model::{Instance, Program};
 use nbc_base::source::{FileId, ForeignCircuit, MemoryWorld, Sources, Span};
 use nbc_circuit::{NetWidths, Netlist, elaborate};
-use nbc_lang::check::{self, Analysis, NameUses};
-use nbc_lang::syntax::KnownDeclarations;
+use nbc_lang::check::{self, Analysis, LastChecks, NameUses};
 use nbc_lang::syntax::tree::Tree;
 
 /// A source with its program and its diagnostics, and all with which it is compiled, tested and proved.
@@ -39,11 +38,11 @@ pub struct Checked {
 }
 
 impl Checked {
-    pub(super) fn read(context: Arc<CheckContext>, path: &str, revision: u64, known: &mut KnownDeclarations) -> Self {
+    pub(super) fn read(context: Arc<CheckContext>, path: &str, revision: u64, last: &mut LastChecks) -> Self {
         let world = &context.world;
         let mut sources = Sources::default();
         let (file, analysis) = match check::open(world, path, &mut sources) {
-            Ok(file) => (Some(file), check::check_again(world, &mut sources, file, known)),
+            Ok(file) => (Some(file), check::check_again(world, &mut sources, file, last)),
             Err(fault) => (None, Analysis { diagnostics: vec![fault], ..Analysis::default() }),
         };
         let Analysis { program, diagnostics, uses, widths, trees, instances, foreign, is_cancelled } = analysis;
@@ -92,7 +91,7 @@ impl Checked {
         findings(&self.diagnostics, &self.sources)
     }
 
-    pub(super) fn told<T>(&self, result: Result<T, Vec<Diagnostic>>) -> Result<T, Diagnostics> {
+    pub(super) fn diagnosed<T>(&self, result: Result<T, Vec<Diagnostic>>) -> Result<T, Diagnostics> {
         result.map_err(|list| self.fail(list))
     }
 

@@ -27,7 +27,7 @@ pub struct ClaimSearch {
 impl Checked {
     /// Begins to decide a claim. The search ends when its budget does, or when the flag is raised.
     pub fn prove(&self, claim: &Claim, budget: SearchBudget, cancel: CancelFlag) -> Result<ClaimSearch, Diagnostics> {
-        self.told(ClaimSearch::new(&self.program, claim, budget, cancel))
+        self.diagnosed(ClaimSearch::new(&self.program, claim, budget, cancel))
     }
 }
 

@@ -26,7 +26,7 @@ const RECENT: usize = 4;
 impl Checked {
     /// Maps a circuit onto the robots of its swarm, and proves the result.
     pub fn map(&self, circuit: &Instance, options: &CompileOptions) -> Result<Mapping, Diagnostics> {
-        self.told(self.plan(circuit, options).and_then(|plan| {
+        self.diagnosed(self.plan(circuit, options).and_then(|plan| {
             let source = Netlist::clone(&*self.netlist(circuit)?);
             map(source, &plan, &options.mapping(), self.place(circuit), Limit::Cells)
         }))
@@ -34,7 +34,7 @@ impl Checked {
 
     pub fn map_net(&self, circuit: &Instance, net: Span, options: &CompileOptions) -> Result<Mapping, Diagnostics> {
         let plan = self.plan(circuit, options);
-        self.told(plan.and_then(|plan| map_net(&self.program, &plan, net, options.mapping())))
+        self.diagnosed(plan.and_then(|plan| map_net(&self.program, &plan, net, options.mapping())))
     }
 
     /// Maps a circuit onto cells that need not be robots, and proves the result.
@@ -44,7 +44,7 @@ impl Checked {
         cells: &CellLibrary,
         options: &CompileOptions,
     ) -> Result<Mapping, Diagnostics> {
-        self.told(self.netlist(circuit).and_then(|source| {
+        self.diagnosed(self.netlist(circuit).and_then(|source| {
             let (source, place) = (Netlist::clone(&source), self.place(circuit));
             map_onto(source, cells, &options.mapping(), RegisterForm::Nands, place, Limit::Cells)
         }))
@@ -53,7 +53,7 @@ impl Checked {
     /// Compiles a circuit to the swarm that is declared for it: elaborate, map, prove, time, assemble.
     pub fn compile(&self, circuit: &Instance, options: &CompileOptions) -> Result<Compiled, Diagnostics> {
         let plan = self.plan(circuit, options);
-        self.told(plan.and_then(|plan| self.compiled(plan, options, self.place(circuit))))
+        self.diagnosed(plan.and_then(|plan| self.compiled(plan, options, self.place(circuit))))
     }
 
     pub(super) fn compiled(

@@ -44,7 +44,7 @@ impl fmt::Debug for CheckContext {
     }
 }
 
-/// Whoever panicked has left a list that is whole.
+/// A panic leaves what these locks guard whole.
 pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

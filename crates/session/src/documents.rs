@@ -7,7 +7,7 @@ use crate::buildable;
 use crate::checked::Checked;
 use crate::context::{BuiltIn, CheckContext, Readings, RecordingWorld};
 use nbc_base::source::{OverlayWorld, SharedWorld, SourceWorld};
-use nbc_lang::syntax::KnownDeclarations;
+use nbc_lang::check::LastChecks;
 
 pub(super) struct Documents {
     world: OverlayWorld<SharedWorld>,
@@ -18,7 +18,7 @@ pub(super) struct Documents {
     revisions: BTreeMap<String, u64>,
     known: BTreeMap<String, Arc<Checked>>,
     readings: Readings,
-    parsed: KnownDeclarations,
+    last: LastChecks,
 }
 
 impl Documents {
@@ -30,7 +30,7 @@ impl Documents {
             revisions: BTreeMap::new(),
             known: BTreeMap::new(),
             readings: Readings::default(),
-            parsed: KnownDeclarations::default(),
+            last: LastChecks::default(),
         }
     }
 
@@ -73,7 +73,7 @@ impl Documents {
             netlists: Mutex::default(),
             compiled: Mutex::default(),
         };
-        let mut checked = Checked::read(Arc::new(context), path, revision, &mut self.parsed);
+        let mut checked = Checked::read(Arc::new(context), path, revision, &mut self.last);
         if !checked.has_errors() {
             let cancel = checked.context.world.cancel();
             let faults = buildable::faults(&checked, &self.files);

@@ -16,7 +16,7 @@ use nbc_lang::check::DEFAULT_LIBRARY;
 impl Checked {
     /// The robots of a declared library or the default one, best first for each function.
     pub fn robots(&self, library: Option<&str>, options: &CompileOptions) -> Result<Library, Diagnostics> {
-        self.told(self.preferred(library, options))
+        self.diagnosed(self.preferred(library, options))
     }
 
     pub(super) fn plans(&self, circuit: &Instance, options: &CompileOptions) -> Result<Vec<Plan>, Vec<Diagnostic>> {

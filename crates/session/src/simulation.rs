@@ -30,7 +30,7 @@ pub(super) fn compiled(
     options: &CompileOptions,
 ) -> Result<Compiled, Diagnostics> {
     let swarm = checked.program.swarm(&simulation.swarm);
-    checked.told(checked.plan_of(&simulation.circuit, swarm, options).and_then(|mut plan| {
+    checked.diagnosed(checked.plan_of(&simulation.circuit, swarm, options).and_then(|mut plan| {
         plan.world = simulation.world.clone().unwrap_or(plan.world);
         checked.compiled(plan, options, simulation.span)
     }))

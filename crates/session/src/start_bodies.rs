@@ -8,7 +8,7 @@ use nbc_base::model::{Body, Evolution, Palette, StartBodies};
 impl Checked {
     /// `runs` is the folder of other evolutions' runs.
     pub fn started(&self, evolution: &Evolution, runs: &str) -> Result<Evolution, Diagnostics> {
-        self.told(self.with_start(evolution, runs))
+        self.diagnosed(self.with_start(evolution, runs))
     }
 
     pub(super) fn with_start(&self, evolution: &Evolution, runs: &str) -> Result<Evolution, Vec<Diagnostic>> {

@@ -78,13 +78,13 @@ impl Checked {
     /// One case for each declared swarm in each world of the test, or one at the level of logic, as for each test for
     /// ever.
     pub fn cases(&self, test: &CircuitTest, options: &TestOptions) -> Result<Vec<TestCase>, Diagnostics> {
-        self.told(self.ready(test, options))
+        self.diagnosed(self.prepared(test, options))
     }
 
-    fn ready(&self, test: &CircuitTest, options: &TestOptions) -> Result<Vec<TestCase>, Vec<Diagnostic>> {
+    fn prepared(&self, test: &CircuitTest, options: &TestOptions) -> Result<Vec<TestCase>, Vec<Diagnostic>> {
         let program = &self.program;
         for (name, _) in &options.compile.files {
-            declared_file(&self.program, name).map_err(|fault| vec![fault])?;
+            declared_file(program, name).map_err(|fault| vec![fault])?;
         }
         let netlist = self.netlist(&test.circuit)?;
         let own = Arc::new(test.clone());
@@ -163,7 +163,7 @@ impl Checked {
         options: &CompileOptions,
     ) -> Result<Option<EnvironmentRun>, Diagnostics> {
         let netlist = self.netlist(&test.circuit);
-        let performance = self.told(netlist.and_then(|netlist| self.performance(test, &netlist, options)))?;
+        let performance = self.diagnosed(netlist.and_then(|netlist| self.performance(test, &netlist, options)))?;
         let watched = performance.map_or(Ok(None), |performance| performance.watch(rows));
         watched.map_err(|fault| self.fail(vec![fault]))
     }

@@ -63,6 +63,21 @@ impl Circuit {
         }
         at
     }
+
+    pub fn each_span(&mut self, visit: &mut dyn FnMut(&mut Span)) {
+        visit(&mut self.span);
+        self.parameters.iter_mut().for_each(|parameter| visit(&mut parameter.span));
+        self.nets.iter_mut().for_each(|net| visit(&mut net.span));
+        self.sizes.iter_mut().for_each(|size| visit(&mut size.span));
+        self.expressions.iter_mut().for_each(|expression| visit(&mut expression.span));
+        for table in &mut self.tables {
+            visit(&mut table.span);
+            table.rows.iter_mut().for_each(|row| visit(&mut row.span));
+            let rows = table.rows.iter_mut().map(|row| &mut row.output);
+            rows.chain(&mut table.otherwise).for_each(|output| visit(&mut output.span));
+        }
+        self.body.each_span(visit);
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -110,6 +125,25 @@ pub struct Block {
     pub nets: std::ops::Range<u32>,
     /// The statements in order of text; their order does not matter.
     pub statements: Vec<Statement>,
+}
+
+impl Block {
+    fn each_span(&mut self, visit: &mut dyn FnMut(&mut Span)) {
+        for statement in &mut self.statements {
+            match statement {
+                Statement::Drive { targets, .. } => targets.iter_mut().for_each(|target| visit(&mut target.span)),
+                Statement::For { span, body, .. } => {
+                    visit(span);
+                    body.each_span(visit);
+                }
+                Statement::If { then, otherwise, .. } => {
+                    [then, otherwise].into_iter().for_each(|block| block.each_span(visit));
+                }
+                Statement::Scope(block) => block.each_span(visit),
+                Statement::Let { .. } => {}
+            }
+        }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]

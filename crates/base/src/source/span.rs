@@ -23,6 +23,16 @@ impl Span {
         Self { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }
     }
 
+    /// Where it is if what was at `from` is at `to`.
+    pub fn moved(self, from: Self, to: Self) -> Self {
+        let moved = |place: u32| place.wrapping_sub(from.start).wrapping_add(to.start);
+        Self { file: to.file, start: moved(self.start), end: moved(self.end) }
+    }
+
+    pub fn is_in(self, whole: Self) -> bool {
+        self.file == whole.file && whole.start <= self.start && self.end <= whole.end
+    }
+
     pub fn range(self) -> std::ops::Range<usize> {
         self.start as usize..self.end as usize
     }

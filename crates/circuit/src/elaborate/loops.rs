@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 
 use crate::elaborate::build::Builder;
-use crate::elaborate::module::{Module, ModuleId, ModuleSignal, Passes, Site};
+use crate::elaborate::module::{Bit, Module, ModuleId, ModuleSignal, Passes, Site};
 use crate::elaborate::wording;
 use nbc_base::budget::{Limit, OverBudget};
 use nbc_base::diag::Diagnostic;
-use petgraph::algo::{kosaraju_scc, toposort};
+use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 impl Builder<'_> {
@@ -25,10 +25,11 @@ impl Builder<'_> {
     }
 
     fn loops_of(&mut self, id: ModuleId) -> Vec<Diagnostic> {
-        let coarse = loops(&self.graph(self.module(id), None));
-        if coarse.is_empty() {
+        // Most modules have none, which is quick to see.
+        if is_straight(self.module(id)) {
             return Vec::new();
         }
+        let coarse = loops(&self.graph(self.module(id), None));
         // At first, a circuit inside was assumed to pass every input to every output; now check its real dependencies.
         let module = self.module(id);
         let has_sites = coarse
@@ -131,11 +132,39 @@ impl Builder<'_> {
     }
 }
 
-fn loops(graph: &DiGraph<(), ()>) -> Vec<Vec<usize>> {
-    // Most modules have none, which is quick to see.
-    if toposort(graph, None).is_ok() {
-        return Vec::new();
+/// Whether no signal depends on itself, even if each circuit inside passes every input to every output.
+fn is_straight(module: &Module) -> bool {
+    let signals = module.signals.len();
+    let mut is_started = vec![false; signals];
+    module.starts.iter().for_each(|&(bit, _)| is_started[bit as usize] = true);
+    let (mut begun, mut done) = (vec![false; signals + module.sites.len()], vec![false; signals + module.sites.len()]);
+    let mut open: Vec<Bit> = Vec::new();
+    for root in 0..signals {
+        open.push(root as Bit);
+        while let Some(&at) = open.last() {
+            let place = at as usize;
+            if std::mem::replace(&mut begun[place], true) {
+                done[place] = true;
+                open.pop();
+                continue;
+            }
+            let waiting = open.len();
+            match module.signals.get(place) {
+                None => open.extend(&module.sites[place - signals].inputs),
+                Some(ModuleSignal::Gate { function, pins, .. }) => open.extend(&pins[..function.arity()]),
+                Some(ModuleSignal::Net { driver: Some(driver), .. }) if !is_started[place] => open.push(driver.get()),
+                Some(ModuleSignal::Output { site, .. }) => open.push(signals as Bit + site),
+                Some(_) => {}
+            }
+            if open[waiting..].iter().any(|&from| begun[from as usize] && !done[from as usize]) {
+                return false;
+            }
+        }
     }
+    true
+}
+
+fn loops(graph: &DiGraph<(), ()>) -> Vec<Vec<usize>> {
     let is_loop = |nodes: &Vec<NodeIndex>| nodes.len() > 1 || graph.contains_edge(nodes[0], nodes[0]);
     let numbers = |nodes: Vec<NodeIndex>| {
         let mut numbers: Vec<_> = nodes.into_iter().map(NodeIndex::index).collect();

@@ -52,6 +52,11 @@ impl Header {
         }
     }
 
+    /// All that a call depends on.
+    pub(crate) fn face(&self) -> (&str, [&[String]; 3], &[bool]) {
+        (&self.name, [&self.parameters, &self.inputs, &self.outputs], &self.optional)
+    }
+
     pub(crate) fn parameter(&self, name: &tree::NameSyntax) -> Option<NameUse> {
         let at = self.parameters.iter().position(|known| *known == name.text)?;
         Some(NameUse { place: name.span, declared: self.places[0][at], kind: NameKind::Number })
@@ -93,6 +98,7 @@ pub(crate) struct CircuitChecker<'a> {
     pub(crate) uses: Vec<NameUse>,
 }
 
+#[derive(Clone)]
 pub(crate) struct CheckedCircuit {
     pub(crate) circuit: Circuit,
     pub(crate) calls: Vec<(CircuitId, Span)>,

@@ -324,12 +324,12 @@ impl<'a> CircuitChecker<'a> {
         [operands, outputs]: [usize; 2],
         span: Span,
     ) {
-        let (circuit, signature) = (&name.text, header.signature());
+        let (circuit, signature) = (&name.text, || header.signature());
         let missing = given.iter().zip(&header.optional).any(|(given, optional)| given.is_none() && !optional);
         if missing || given.len() != header.inputs.len() {
-            self.diagnostics.push(wording::call_operands(circuit, header.inputs.len(), operands, &signature, span));
+            self.diagnostics.push(wording::call_operands(circuit, header.inputs.len(), operands, &signature(), span));
         } else if outputs != header.outputs.len() {
-            self.diagnostics.push(wording::call_outputs(circuit, header.outputs.len(), outputs, &signature, span));
+            self.diagnostics.push(wording::call_outputs(circuit, header.outputs.len(), outputs, &signature(), span));
         }
     }
 

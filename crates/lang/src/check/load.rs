@@ -6,7 +6,7 @@ use crate::check::foreign::{Foreign, ForeignDesign};
 use crate::check::names::Home;
 use crate::check::wording;
 use crate::syntax::tree::{DeclarationKind, TestKind, Text, Tree};
-use crate::syntax::{KnownDeclarations, parse_again};
+use crate::syntax::{KnownTexts, parse_again};
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Suggestion, similar_file};
 use nbc_base::source::{FileError, FileId, ForeignCircuit, ProofOrigin, SourceWorld, Sources, Span};
@@ -53,12 +53,7 @@ pub fn open(world: &dyn SourceWorld, path: &str, sources: &mut Sources) -> Resul
     }
 }
 
-pub(crate) fn load(
-    world: &dyn SourceWorld,
-    sources: &mut Sources,
-    file: FileId,
-    known: &mut KnownDeclarations,
-) -> Loaded {
+pub(crate) fn load(world: &dyn SourceWorld, sources: &mut Sources, file: FileId, known: &mut KnownTexts) -> Loaded {
     let mut loader = Loader { world, known, loaded: Loaded::default(), open: Vec::new(), done: Vec::new() };
     for (name, text) in PRELUDE {
         let id = sources.add(name, text);
@@ -70,7 +65,7 @@ pub(crate) fn load(
 
 struct Loader<'a> {
     world: &'a dyn SourceWorld,
-    known: &'a mut KnownDeclarations,
+    known: &'a mut KnownTexts,
     loaded: Loaded,
     /// Outermost first: identity and path as written.
     open: Vec<(String, String)>,

@@ -17,6 +17,7 @@ mod fields;
 mod foreign;
 mod images;
 mod instance;
+mod known;
 mod library;
 mod limit;
 mod load;
@@ -41,28 +42,25 @@ mod world;
 
 pub use analysis::Analysis;
 pub use instance::named;
+pub use known::LastChecks;
 pub use load::{PRELUDE, beside, is_usable, open};
 pub use record_fields::{Holds, RecordField, record_fields};
 pub use swarm::DEFAULT_LIBRARY;
 pub use uses::{NameKind, NameUse, NameUses};
 pub use verilog_files::verilog_files;
 
-use crate::syntax::KnownDeclarations;
 use nbc_base::source::{FileId, SourceWorld, Sources};
 
 pub fn check(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Analysis {
-    check_again(world, sources, file, &mut KnownDeclarations::default())
+    check_again(world, sources, file, &mut LastChecks::default())
 }
 
 /// Checks a text of which some declarations may be known from before.
-pub fn check_again(
-    world: &dyn SourceWorld,
-    sources: &mut Sources,
-    file: FileId,
-    known: &mut KnownDeclarations,
-) -> Analysis {
-    let loaded = load::load(world, sources, file, known);
-    let mut analysis = program::program(world, &loaded, sources);
+pub fn check_again(world: &dyn SourceWorld, sources: &mut Sources, file: FileId, last: &mut LastChecks) -> Analysis {
+    let loaded = load::load(world, sources, file, &mut last.texts);
+    let mut known = last.files.remove(&sources.file(file).name).unwrap_or_default();
+    let mut analysis = program::program(world, &loaded, sources, (&mut last.prelude, &mut known));
+    last.files.insert(sources.file(file).name.clone(), known);
     let diagnostics = &mut analysis.diagnostics;
     consequences::forget(diagnostics, sources, &loaded);
     diagnostics.extend(library::folders(world, sources, &loaded.trees));

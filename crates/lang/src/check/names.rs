@@ -77,6 +77,15 @@ impl<T: Copy> NameTable<T> {
         }
     }
 
+    fn count(&self) -> usize {
+        self.uses.borrow().len()
+    }
+
+    /// The places of the uses after the first `count`.
+    pub(crate) fn places_from(&self, count: usize) -> Vec<Span> {
+        self.uses.borrow()[count..].iter().map(|found| found.place).collect()
+    }
+
     fn refer(&self, place: Span, declared: Span) {
         self.uses.borrow_mut().push(NameUse { place, declared, kind: self.kind });
     }
@@ -165,6 +174,18 @@ impl Names {
             swarms: NameTable::new(NameKind::Swarm),
             worlds: NameTable::new(NameKind::World),
         }
+    }
+
+    /// How often circuits were named, and how often what else their bodies can name.
+    pub(crate) fn counts(&self) -> (usize, usize) {
+        let others = [self.enumerations.count(), self.files.count(), self.members.count(), self.integers.count()];
+        (self.circuits.count(), others.iter().sum())
+    }
+
+    /// What bodies of circuits can name beside circuits.
+    pub(crate) fn of_bodies(&self) -> Vec<String> {
+        let places = self.enumerations.all().chain(self.files.all());
+        places.chain(self.members.all()).chain(self.integers.all()).map(str::to_owned).collect()
     }
 
     pub(crate) fn take_uses(&self) -> Vec<NameUse> {

@@ -29,7 +29,12 @@ pub struct Token {
 const PAIRS: [[u8; 2]; 11] = [*b"->", *b"=>", *b"==", *b"!=", *b"<=", *b">=", *b"<<", *b">>", *b"..", *b"**", *b":="];
 
 pub fn tokens(text: &str) -> impl Iterator<Item = Token> {
-    let (mut at, mut is_first) = (0, true);
+    tokens_from(text, 0)
+}
+
+/// From the start of a token, before which its line has only comments.
+pub fn tokens_from(text: &str, start: usize) -> impl Iterator<Item = Token> {
+    let (mut at, mut is_first) = (start, true);
     std::iter::from_fn(move || {
         let start = at + run(&text[at..], |b| b.is_ascii_whitespace() || b == 0xb, char::is_whitespace);
         if start == text.len() {

@@ -20,7 +20,7 @@ pub mod tree;
 mod wording;
 
 pub use format::format;
-pub use lexer::{Token, TokenKind, tokens};
+pub use lexer::{Token, TokenKind, tokens, tokens_from};
 pub(crate) use parse::parse_again;
-pub use parse::{KnownDeclarations, Parsed, parse, parse_instance};
+pub use parse::{KnownTexts, Parsed, parse, parse_instance};
 pub use split::KEYWORDS;

@@ -11,7 +11,7 @@ use crate::syntax::expected;
 use crate::syntax::grammar::{NbParser, Rule};
 use crate::syntax::part::{PartKind, PartPlace};
 use crate::syntax::recover;
-use crate::syntax::split::{SourcePiece, Split, split};
+use crate::syntax::split::{SourcePiece, Split, split_again};
 use crate::syntax::tree::{BrokenSyntax, Declaration, InstanceSyntax, Tree, moved};
 use crate::syntax::wording;
 use nbc_base::budget::Limit;
@@ -24,16 +24,24 @@ pub struct Parsed {
     pub errors: Vec<Diagnostic>,
 }
 
-/// The declarations without faults of the last text of each file, by the name of the file and their own text.
+/// The last text of each file, by its name.
 #[derive(Default)]
-pub struct KnownDeclarations(BTreeMap<String, BTreeMap<String, Arc<Declaration>>>);
+pub struct KnownTexts(BTreeMap<String, KnownText>);
+
+#[derive(Default)]
+struct KnownText {
+    text: String,
+    split: Split,
+    /// Those without faults, by their own text.
+    declarations: BTreeMap<String, Arc<Declaration>>,
+}
 
 pub fn parse(sources: &Sources, file: FileId) -> Parsed {
-    parse_again(sources, file, &mut KnownDeclarations::default())
+    parse_again(sources, file, &mut KnownTexts::default())
 }
 
 /// Parses only what is not known.
-pub(crate) fn parse_again(sources: &Sources, file: FileId, known: &mut KnownDeclarations) -> Parsed {
+pub(crate) fn parse_again(sources: &Sources, file: FileId, known: &mut KnownTexts) -> Parsed {
     let text = &sources.file(file).text;
     if Limit::SourceBytes.permit(text.len() as u64).is_err() {
         let error = wording::large_file(text.len(), Limit::SourceBytes.most(), Span::new(file, 0, 0));
@@ -43,15 +51,15 @@ pub(crate) fn parse_again(sources: &Sources, file: FileId, known: &mut KnownDecl
         let error = wording::zero_byte(Span::new(file, at, at + 1));
         return Parsed { errors: vec![error], ..Parsed::default() };
     }
-    let split = split(text);
+    let name = &sources.file(file).name;
+    let KnownText { text: old, split, declarations: mut before } = known.0.remove(name).unwrap_or_default();
+    let split = split_again(text, &old, split);
     let mut parsed = Parsed::default();
     parsed.tree.comments = split.comments.iter().map(|comment| Span::new(file, comment.start, comment.end)).collect();
     for comment in &split.foreign_comments {
         let span = Span::new(file, comment.start, comment.end);
         parsed.errors.push(wording::foreign_comment(&text[comment.clone()], &text[comment.end..], span));
     }
-    let name = &sources.file(file).name;
-    let mut before = known.0.remove(name).unwrap_or_default();
     let mut now = BTreeMap::new();
     for piece in &split.pieces {
         let source = &text[piece.range.clone()];
@@ -69,7 +77,7 @@ pub(crate) fn parse_again(sources: &Sources, file: FileId, known: &mut KnownDecl
             now.insert(source.to_owned(), declaration.clone());
         }
     }
-    known.0.insert(name.clone(), now);
+    known.0.insert(name.clone(), KnownText { text: text.clone(), split, declarations: now });
     parsed.errors.sort_by_key(|error| error.labels.first().map(|label| label.span));
     parsed
 }

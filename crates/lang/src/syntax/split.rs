@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use crate::syntax::lexer::{Token, TokenKind, bracket, is_word, tokens};
+use crate::syntax::lexer::{Token, TokenKind, bracket, is_word, tokens_from};
 
 pub const KEYWORDS: [&str; 17] = [
     "circuit",
@@ -48,18 +48,78 @@ pub(crate) struct SourcePiece {
     pub(crate) name: usize,
 }
 
-pub(crate) fn split(text: &str) -> Split {
-    let mut splitter =
-        Splitter { text, split: Split::default(), piece: None, open: Vec::new(), closed: false, choices: 0 };
-    for token in tokens(text) {
+/// Splits a text, of which `old` was split before. Only what is near the first and the last change is read.
+pub(crate) fn split_again(text: &str, old: &str, mut split: Split) -> Split {
+    let first = alike(text.as_bytes(), old.as_bytes());
+    let last = alike_at_end(&text.as_bytes()[first..], &old.as_bytes()[first..]);
+    let by = text.len().wrapping_sub(old.len());
+    // The first words of a declaration decide where it begins, and where the one before it ends.
+    let kept = split.pieces.partition_point(|piece| piece.range.start < first).saturating_sub(2);
+    let start = if kept == 0 { 0 } else { split.pieces[kept].range.start };
+    let mut after = split.split_off(kept, start);
+    let mut splitter = Splitter { text, split, piece: None, open: Vec::new(), closed: false, choices: 0 };
+    for token in tokens_from(text, start) {
+        let range = token.range.clone();
         match token.kind {
-            TokenKind::Comment => splitter.split.comments.push(token.range),
-            TokenKind::ForeignComment => splitter.split.foreign_comments.push(token.range),
+            TokenKind::Comment => splitter.split.comments.push(range),
+            TokenKind::ForeignComment => splitter.split.foreign_comments.push(range),
+            _ if splitter.begins(&token, &text[range.clone()]) => {
+                splitter.end_piece();
+                let same = after.pieces.binary_search_by_key(&range.start.wrapping_sub(by), |piece| piece.range.start);
+                if let Ok(same) = same
+                    && range.start >= text.len() - last
+                {
+                    let rest = after.split_off(same, range.start.wrapping_sub(by));
+                    splitter.split.add(rest, by);
+                    return splitter.split;
+                }
+                splitter.token(&token);
+            }
             _ => splitter.token(&token),
         }
     }
     splitter.end_piece();
     splitter.split
+}
+
+/// Bytes that are compared at once.
+const BLOCK: usize = 1 << 10;
+
+/// The length of what both begin with.
+fn alike(one: &[u8], other: &[u8]) -> usize {
+    let blocks = one.chunks_exact(BLOCK).zip(other.chunks_exact(BLOCK)).take_while(|(one, other)| one == other);
+    let start = blocks.count() * BLOCK;
+    start + one[start..].iter().zip(&other[start..]).take_while(|(one, other)| one == other).count()
+}
+
+fn alike_at_end(one: &[u8], other: &[u8]) -> usize {
+    let blocks = one.rchunks_exact(BLOCK).zip(other.rchunks_exact(BLOCK)).take_while(|(one, other)| one == other);
+    let end = blocks.count() * BLOCK;
+    let rest = one[..one.len() - end].iter().rev().zip(other[..other.len() - end].iter().rev());
+    end + rest.take_while(|(one, other)| one == other).count()
+}
+
+impl Split {
+    /// Takes the pieces from one on, which begins at `start`.
+    fn split_off(&mut self, piece: usize, start: usize) -> Self {
+        let from = |list: &mut Vec<Range<usize>>| list.split_off(list.partition_point(|comment| comment.start < start));
+        Self {
+            pieces: self.pieces.split_off(piece),
+            comments: from(&mut self.comments),
+            foreign_comments: from(&mut self.foreign_comments),
+        }
+    }
+
+    /// Adds what was split before the text in front of it got longer by so many bytes, modulo 2^64.
+    fn add(&mut self, more: Self, by: usize) {
+        let moved = |range: Range<usize>| range.start.wrapping_add(by)..range.end.wrapping_add(by);
+        self.comments.extend(more.comments.into_iter().map(moved));
+        self.foreign_comments.extend(more.foreign_comments.into_iter().map(moved));
+        self.pieces.extend(more.pieces.into_iter().map(|mut piece| {
+            piece.semicolons.iter_mut().for_each(|at| *at = at.wrapping_add(by));
+            SourcePiece { range: moved(piece.range), ..piece }
+        }));
+    }
 }
 
 struct Splitter<'a> {
@@ -76,9 +136,6 @@ struct Splitter<'a> {
 impl Splitter<'_> {
     fn token(&mut self, token: &Token) {
         let word = &self.text[token.range.clone()];
-        if self.begins(token, word) {
-            self.end_piece();
-        }
         let start = token.range.start;
         let empty = || SourcePiece { range: start..start, semicolons: Vec::new(), depth: 0, words: 0, name: 0 };
         let piece = self.piece.get_or_insert_with(empty);
@@ -143,6 +200,24 @@ fn starts_declaration(keyword: &str, rest: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn split(text: &str) -> Split {
+        split_again(text, "", Split::default())
+    }
+
+    #[test]
+    fn a_changed_text_is_split_like_a_new_one() {
+        let parts =
+            "circuit f {\n|}\n|test g |let|\n\n| |// c\n|/* |*/|;|\"|\nelse|:|\ncircuit h() -> (q) { q = 1 }\n|é";
+        let parts: Vec<&str> = parts.split('|').collect();
+        for turn in 0..parts.len() {
+            let around = [&parts[turn..], &parts[..turn]].concat().concat().repeat(2);
+            for (old, new) in parts.iter().flat_map(|old| parts.iter().map(move |new| (old, new))) {
+                let [old, new] = [old, new].map(|middle| format!("{around}{middle}{around}"));
+                assert_eq!(split_again(&new, &old, split(&old)), split(&new), "{old:?} to {new:?}");
+            }
+        }
+    }
 
     fn check(text: &str, expected: &[&str]) {
         let pieces: Vec<_> = split(text).pieces.into_iter().map(|piece| text[piece.range].to_owned()).collect();

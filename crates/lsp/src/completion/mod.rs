@@ -11,7 +11,6 @@ use gen_lsp_types::{CompletionItem, CompletionItemKind, InsertTextFormat, Markup
 use crate::files::Files;
 use crate::interface::Interface;
 use crate::spot::Spot;
-use crate::tokens;
 use nbc_base::model::Function;
 use nbc_circuit::formats::is_word;
 use nbc_lang::check::{Holds, NameKind, record_fields};
@@ -33,7 +32,7 @@ const TRIGGERS_IN_PATHS: [&str; 2] = ["\"", "/"];
 
 /// `typed` is the trigger, unless the user asked.
 pub(super) fn items(spot: &Spot<'_>, typed: Option<&str>) -> Vec<CompletionItem> {
-    let tokens = tokens::tokens(spot.text());
+    let tokens = spot.tokens();
     if let Some(quoted) = tokens.iter().find(|token| is_inside(token, spot)) {
         return path(spot, &tokens, quoted.range.start);
     }

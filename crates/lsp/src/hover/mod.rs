@@ -30,7 +30,7 @@ pub(super) fn show(spot: &Spot<'_>, pictures: bool) -> Option<Shown> {
         return Some(of_name(spot, found, pictures));
     }
     let text = spot.text();
-    let tokens = tokens::tokens(text);
+    let tokens = spot.tokens();
     let token = tokens::at(&tokens, spot.offset)?;
     let word = &text[token.range.clone()];
     let shown = match token.kind {

@@ -13,6 +13,7 @@ use crate::check::derived::{CheckState, order};
 use crate::check::enumeration;
 use crate::check::evolution::{self, evolution};
 use crate::check::images::{Stimuli, images};
+use crate::check::known::{KnownCircuit, KnownCircuits};
 use crate::check::library::library;
 use crate::check::load::{Loaded, beside};
 use crate::check::material::material;
@@ -34,7 +35,10 @@ use nbc_base::model::{
 use nbc_base::source::{CancelFlag, FileId, SourceWorld, Sources, Span};
 use nbc_circuit::{Inspection, Inspector};
 
-pub(crate) fn program(files: &dyn SourceWorld, loaded: &Loaded, sources: &Sources) -> Analysis {
+/// Circuits of the prelude, and of the files that this program was made of before.
+type Known<'k> = (&'k mut BTreeMap<String, KnownCircuit>, &'k mut KnownCircuits);
+
+pub(crate) fn program(files: &dyn SourceWorld, loaded: &Loaded, sources: &Sources, known: Known<'_>) -> Analysis {
     let mut assembly = Assembly::new(loaded, sources);
     assembly.stimuli();
     assembly.materials();
@@ -46,7 +50,7 @@ pub(crate) fn program(files: &dyn SourceWorld, loaded: &Loaded, sources: &Source
     assembly.evolutions();
     assembly.libraries();
     assembly.named_values();
-    assembly.circuits();
+    assembly.circuits(known);
     assembly.swarms();
     assembly.unused_libraries();
     assembly.unused_stimuli();
@@ -284,24 +288,43 @@ impl<'a> Assembly<'a> {
     }
 
     /// Their widths are checked when they are built.
-    fn circuits(&mut self) {
+    fn circuits(&mut self, (base, files): Known<'_>) {
         let mut sources = Vec::new();
         for (home, declaration) in self.declarations.all() {
             if let DeclarationKind::Circuit(source) = &declaration.kind {
                 self.faults.extend(self.names.circuits.declare(&source.name, sources.len(), home).err());
                 self.circuits.headers.circuits.push(Header::of(source));
-                sources.push((home, source));
+                sources.push((declaration.span, source));
+                self.circuits.homes.push(home);
             }
         }
         let prelude = |name| self.names.circuits.find(name, Home::Prelude).map(|at| CircuitId(at as u32));
         (self.program.selector, self.program.stored) = (prelude("select"), prelude("stored"));
         let mut calls = Vec::new();
-        for &(home, source) in &sources {
-            let checked =
-                circuit(source, home, Vocabulary::of(&self.names, &self.program), &self.circuits.headers, None);
+        files.begin(&self.circuits.homes, &self.circuits.headers.circuits, self.names.of_bodies());
+        let (mut of_prelude, mut of_files) = (std::mem::take(base), std::mem::take(&mut files.circuits));
+        for (&(span, source), &home) in sources.iter().zip(&self.circuits.homes) {
+            let (before, now) = match home {
+                Home::Prelude => (&mut of_prelude, &mut *base),
+                _ => (&mut of_files, &mut files.circuits),
+            };
+            let text = self.declarations.sources.text(span);
+            let checked = match before.remove_entry(text).filter(|(_, known)| known.home == home) {
+                Some((text, known)) => {
+                    let checked = known.at(span, &self.names, self.declarations.sources);
+                    now.insert(text, known);
+                    checked
+                }
+                None => {
+                    let (declared, counts) = (Vocabulary::of(&self.names, &self.program), self.names.counts());
+                    let checked = circuit(source, home, declared, &self.circuits.headers, None);
+                    let known = KnownCircuit::of(home, span, &checked, &self.names, counts);
+                    now.extend(known.map(|known| (text.to_owned(), known)));
+                    checked
+                }
+            };
             let is_whole = !self.declarations.is_broken(source.name.span);
             self.circuits.sound.push(is_whole && !checked.diagnostics.iter().any(Diagnostic::is_error));
-            self.circuits.homes.push(home);
             self.faults.extend(checked.diagnostics);
             self.inner.extend(checked.uses);
             calls.push(checked.calls);
