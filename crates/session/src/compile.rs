@@ -196,3 +196,30 @@ fn name_values(program: &Program, circuit: &Instance, assembly: &mut Assembly) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Session, TestOptions};
+    use nbc_base::source::MemoryWorld;
+    use nbc_swarm::Level;
+
+    #[test]
+    fn a_circuit_is_compiled_once_for_its_tests_and_again_for_other_robots() {
+        let mut session = Session::new(MemoryWorld::default());
+        let rows = "{\n a | q\n 0 | 1\n}\n";
+        let text = format!("circuit f(a) -> (q) {{ q = not a }}\ntest f \"one\" {rows}test f \"two\" {rows}");
+        session.update("a.nb", 0, text);
+        let checked = session.open("a.nb").unwrap();
+        let mut options = TestOptions { level: Some(Level::Physics), ..TestOptions::default() };
+        let compiled = |options: &TestOptions| {
+            for test in &checked.program.tests {
+                assert_eq!(checked.cases(test, options).unwrap().len(), 1);
+            }
+            lock(&checked.context.compiled).len()
+        };
+        assert_eq!(compiled(&options), 1);
+        options.compile.without = vec!["nand_5x5".to_owned()];
+        assert_eq!(compiled(&options), 2);
+    }
+}

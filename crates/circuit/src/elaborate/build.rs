@@ -3,30 +3,39 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use crate::elaborate::module::{Bit, Item, Module, ModuleId, ModuleNet, ModulePort, ModuleSignal, Passes, Scope, Sum};
+use crate::elaborate::module::{
+    Bit, Item, Making, Module, ModuleId, ModuleKey, ModuleNet, ModulePort, ModuleSignal, Passes, Scope, Sum,
+};
 use crate::elaborate::wording;
 use nbc_base::budget::{Limit, OverBudget, WorkBudget};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Circuit, CircuitId, Column, ExpressionId, Instance, NetSlot, Program};
 use nbc_base::source::Span;
 
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct ModuleKey {
-    pub(super) circuit: CircuitId,
-    pub(super) arguments: Vec<i128>,
-    pub(super) absent: Vec<u32>,
-}
+/// By the places of the limits in [`Limit::ALL`].
+type Spent = [u64; Limit::ALL.len()];
+
+/// The modules of a check, those inside others first.
+#[derive(Default)]
+pub struct KeptModules(Vec<(Module, Making)>);
 
 pub(super) struct Builder<'a> {
     pub(super) program: &'a Program,
     /// References of tests, which are numbered after the program's circuits.
     references: Vec<&'a Circuit>,
     pub(super) modules: Vec<Module>,
+    makings: Vec<Making>,
+    /// Those of the last check.
+    kept: BTreeMap<ModuleKey, ModuleId>,
     /// The module of each circuit and its parameters; `None` if it is invalid or under construction.
     known: BTreeMap<ModuleKey, Option<ModuleId>>,
     pub(super) diagnostics: Vec<Diagnostic>,
     noted: BTreeSet<Diagnostic>,
+    /// Faults, also those that were noted before.
+    faults: usize,
     depth: usize,
+    /// For what is inside the module that is being built.
+    inside: Spent,
     pub(super) inspected: Vec<bool>,
     pub(super) passes: Passes,
     pub(super) budget: WorkBudget,
@@ -45,10 +54,14 @@ impl<'a> Builder<'a> {
             program,
             references: Vec::new(),
             modules: Vec::new(),
+            makings: Vec::new(),
+            kept: BTreeMap::new(),
             known: BTreeMap::new(),
             diagnostics: Vec::new(),
             noted: BTreeSet::new(),
+            faults: 0,
             depth: 0,
+            inside: [0; Limit::ALL.len()],
             inspected: Vec::new(),
             passes: Passes::new(),
             budget,
@@ -84,6 +97,7 @@ impl<'a> Builder<'a> {
     }
 
     pub(super) fn fault(&mut self, fault: Diagnostic) {
+        self.faults += 1;
         if self.diagnostics.len() < MOST_FAULTS && self.noted.insert(fault.clone()) {
             self.diagnostics.push(fault);
         }
@@ -134,18 +148,94 @@ impl<'a> Builder<'a> {
             self.fault(wording::too_deep(place));
             return None;
         }
+        let kept = self.kept.get(&key).copied();
+        let height = |id: ModuleId| self.makings[id.0 as usize].height;
+        let fits = |&id: &ModuleId| Limit::Hierarchy.permit((self.depth + height(id)) as u64).is_ok();
+        if let Some(id) = kept.filter(fits) {
+            return self.adopt(id).map(|()| id);
+        }
+        let (faults, before) = (self.faults, self.spent());
+        let around = std::mem::replace(&mut self.inside, [0; Limit::ALL.len()]);
         self.take(Limit::Modules, 1, place)?;
         self.known.insert(key.clone(), None);
         self.depth += 1;
         let module = ModuleBuilder::new(self, key.circuit).run(&key);
         self.depth -= 1;
+        let now = self.spent();
+        let own = Limit::ALL
+            .iter()
+            .zip(now)
+            .zip(before)
+            .zip(self.inside)
+            .map(|(((limit, now), before), inside)| (*limit, now - before - inside));
+        let spent = own.filter(|(_, amount)| *amount > 0).collect();
+        self.inside = std::array::from_fn(|at| around[at] + now[at] - before[at]);
         let id = module.map(|module| {
-            self.modules.push(module);
-            self.inspected.push(false);
-            ModuleId::new(self.modules.len() - 1)
+            let levels = module.sites.iter().map(|site| self.makings[site.module.0 as usize].height);
+            let height = levels.max().unwrap_or(0) + 1;
+            let has_faults = self.faults > faults;
+            self.add(module, Making { key: key.clone(), place, spent, has_faults, height, is_used: true })
         });
         self.known.insert(key, id);
         id
+    }
+
+    fn spent(&self) -> Spent {
+        std::array::from_fn(|at| Limit::ALL[at].most() - self.budget.left(Limit::ALL[at]))
+    }
+
+    fn add(&mut self, module: Module, making: Making) -> ModuleId {
+        self.modules.push(module);
+        self.makings.push(making);
+        self.inspected.push(false);
+        ModuleId::new(self.modules.len() - 1)
+    }
+
+    /// Uses a module of the last check, and those inside it, as if they were built now.
+    fn adopt(&mut self, id: ModuleId) -> Option<()> {
+        let mut open = vec![id];
+        while let Some(id) = open.pop() {
+            let making = &mut self.makings[id.0 as usize];
+            if std::mem::replace(&mut making.is_used, true) {
+                continue;
+            }
+            let (place, spent) = (making.place, making.spent.clone());
+            self.known.insert(making.key.clone(), Some(id));
+            open.extend(self.module(id).sites.iter().map(|site| site.module));
+            for (limit, amount) in spent {
+                self.inside[limit as usize] += amount;
+                self.take(limit, amount, place)?;
+            }
+        }
+        Some(())
+    }
+
+    /// Takes the modules without faults whose circuits, and those inside, are as they were.
+    pub(super) fn keep(&mut self, kept: KeptModules, is_same: &[bool]) {
+        let mut places: Vec<Option<ModuleId>> = Vec::new();
+        for (mut module, making) in kept.0 {
+            let inside = module.sites.iter().map(|site| places[site.module.0 as usize]);
+            let inside: Option<Vec<ModuleId>> = inside.collect();
+            let is_same = is_same.get(making.key.circuit.0 as usize) == Some(&true);
+            let inside = inside.filter(|_| is_same && making.is_used && !making.has_faults);
+            places.push(inside.map(|inside| {
+                module.sites.iter_mut().zip(inside).for_each(|(site, now)| site.module = now);
+                let place = self.circuit(making.key.circuit).span;
+                module.move_spans(making.place, place);
+                let key = making.key.clone();
+                let id = self.add(module, Making { place, is_used: false, ..making });
+                self.kept.insert(key, id);
+                id
+            }));
+        }
+    }
+
+    pub(super) fn used(&self) -> impl Iterator<Item = &Module> {
+        self.modules.iter().zip(&self.makings).filter(|(_, making)| making.is_used).map(|(module, _)| module)
+    }
+
+    pub(super) fn into_kept(self) -> KeptModules {
+        KeptModules(self.modules.into_iter().zip(self.makings).collect())
     }
 
     pub(super) fn instances(&self) -> impl Iterator<Item = Instance> + '_ {

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use crate::elaborate::build::{ModuleBuilder, ModuleKey};
-use crate::elaborate::module::{Bit, Item, ModuleId, ModuleSignal, Site};
+use crate::elaborate::build::ModuleBuilder;
+use crate::elaborate::module::{Bit, Item, ModuleId, ModuleKey, ModuleSignal, Site};
 use crate::elaborate::table::TableValues;
 use crate::elaborate::wording::{self, OperandText};
 use crate::index::ListIndex;

@@ -23,6 +23,7 @@ mod unroll;
 mod width;
 mod wording;
 
+pub use build::KeptModules;
 pub use module::MemoryPorts;
 pub use table_faults::{table_fault, table_in_bits};
 pub use wording::{not_a_pattern, two_else};
@@ -107,8 +108,11 @@ fn finish(mut builder: Builder<'_>, module: Option<ModuleId>, name: &str) -> Res
 pub struct Inspector<'a>(Builder<'a>);
 
 impl<'a> Inspector<'a> {
-    pub fn new(program: &'a Program, budget: WorkBudget) -> Self {
-        Self(Builder::within(program, budget))
+    /// `is_same` says of each circuit whether it is as it was when `kept` was made.
+    pub fn new(program: &'a Program, budget: WorkBudget, kept: KeptModules, is_same: &[bool]) -> Self {
+        let mut builder = Builder::within(program, budget);
+        builder.keep(kept, is_same);
+        Self(builder)
     }
 
     pub fn budget(&mut self) -> &mut WorkBudget {
@@ -146,14 +150,15 @@ impl<'a> Inspector<'a> {
         self.0.with_arguments(circuit, arguments, place).is_some_and(|module| self.0.has_memory(module))
     }
 
-    pub fn finish(self) -> Inspection {
-        let nets = self.0.modules.iter().flat_map(|module| &module.nets);
+    pub fn finish(self) -> (Inspection, KeptModules) {
+        let nets = self.0.used().flat_map(|module| &module.nets);
         let mut widths: Vec<_> = nets.filter_map(|net| Some((net.span, net.width?))).collect();
         widths.sort_unstable();
         widths.dedup();
         let (widths, instances) = (NetWidths(widths), self.0.instances().collect());
         let is_cancelled = self.0.over == Some(OverBudget::Cancelled);
-        Inspection { diagnostics: self.0.diagnostics, widths, instances, is_cancelled }
+        let diagnostics = self.0.diagnostics.clone();
+        (Inspection { diagnostics, widths, instances, is_cancelled }, self.0.into_kept())
     }
 }
 

@@ -18,6 +18,28 @@ impl ModuleId {
     }
 }
 
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct ModuleKey {
+    pub(super) circuit: CircuitId,
+    pub(super) arguments: Vec<i128>,
+    pub(super) absent: Vec<u32>,
+}
+
+/// How a module was built, so that the next check can take it.
+#[derive(Clone, Debug)]
+pub(super) struct Making {
+    pub(super) key: ModuleKey,
+    /// Of the circuit's name.
+    pub(super) place: Span,
+    /// For it alone, without those inside.
+    pub(super) spent: Vec<(Limit, u64)>,
+    pub(super) has_faults: bool,
+    /// Levels of modules inside, and its own.
+    pub(super) height: usize,
+    /// One that was taken from the last check may be of no use in this one.
+    pub(super) is_used: bool,
+}
+
 /// For each module, and each of its output bits, the input bits that reach it.
 pub(super) type Passes = BTreeMap<ModuleId, Vec<Vec<u32>>>;
 
@@ -98,6 +120,15 @@ impl Module {
     pub(super) fn start(&self, bit: Bit) -> Option<bool> {
         let at = self.starts.binary_search_by_key(&bit, |(bit, _)| *bit).ok()?;
         Some(self.starts[at].1)
+    }
+
+    pub(super) fn move_spans(&mut self, from: Span, to: Span) {
+        self.nets.iter_mut().for_each(|net| net.span = net.span.moved(from, to));
+        for signal in &mut self.signals {
+            if let ModuleSignal::Gate { span, .. } = signal {
+                *span = span.moved(from, to);
+            }
+        }
     }
 
     pub(super) fn port(&self, net: usize) -> ModulePort {

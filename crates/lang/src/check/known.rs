@@ -6,6 +6,7 @@ use crate::check::circuit::{CheckedCircuit, Header};
 use crate::check::names::{Home, Names};
 use crate::syntax::KnownTexts;
 use nbc_base::source::{Sources, Span};
+use nbc_circuit::elaborate::KeptModules;
 
 /// Parts of the last checks that the next one may need again.
 #[derive(Default)]
@@ -24,9 +25,14 @@ pub(crate) struct KnownCircuits {
     /// Of what is not a circuit.
     names: Vec<String>,
     pub(crate) circuits: BTreeMap<String, KnownCircuit>,
+    pub(crate) modules: KeptModules,
 }
 
 impl KnownCircuits {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.headers.is_empty()
+    }
+
     /// Forgets everything if a circuit could name something else now.
     pub(crate) fn begin(&mut self, homes: &[Home], headers: &[Header], names: Vec<String>) {
         let now = || homes.iter().zip(headers);
@@ -35,7 +41,7 @@ impl KnownCircuits {
         };
         if self.names != names || self.headers.len() != headers.len() || !now().zip(&self.headers).all(is_same) {
             let headers = now().map(|(home, header)| (*home, header.clone())).collect();
-            *self = Self { headers, names, circuits: BTreeMap::new() };
+            *self = Self { headers, names, ..Self::default() };
         }
     }
 }

@@ -49,6 +49,8 @@ pub use swarm::DEFAULT_LIBRARY;
 pub use uses::{NameKind, NameUse, NameUses};
 pub use verilog_files::verilog_files;
 
+use crate::check::known::KnownCircuits;
+use nbc_base::diag::Code;
 use nbc_base::source::{FileId, SourceWorld, Sources};
 
 pub fn check(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Analysis {
@@ -59,7 +61,13 @@ pub fn check(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> An
 pub fn check_again(world: &dyn SourceWorld, sources: &mut Sources, file: FileId, last: &mut LastChecks) -> Analysis {
     let loaded = load::load(world, sources, file, &mut last.texts);
     let mut known = last.files.remove(&sources.file(file).name).unwrap_or_default();
+    let is_new = known.is_empty();
     let mut analysis = program::program(world, &loaded, sources, (&mut last.prelude, &mut known));
+    // Where a budget ends depends on what was made before.
+    if !is_new && analysis.diagnostics.iter().any(|fault| fault.code == Code::TooLarge) {
+        known = KnownCircuits::default();
+        analysis = program::program(world, &loaded, sources, (&mut last.prelude, &mut known));
+    }
     last.files.insert(sources.file(file).name.clone(), known);
     let diagnostics = &mut analysis.diagnostics;
     consequences::forget(diagnostics, sources, &loaded);

@@ -33,6 +33,7 @@ use nbc_base::model::{
     SearchObjective, Stimulation,
 };
 use nbc_base::source::{CancelFlag, FileId, SourceWorld, Sources, Span};
+use nbc_circuit::elaborate::KeptModules;
 use nbc_circuit::{Inspection, Inspector};
 
 /// Circuits of the prelude, and of the files that this program was made of before.
@@ -50,11 +51,15 @@ pub(crate) fn program(files: &dyn SourceWorld, loaded: &Loaded, sources: &Source
     assembly.evolutions();
     assembly.libraries();
     assembly.named_values();
-    assembly.circuits(known);
+    let (of_prelude, known) = known;
+    let is_same = assembly.circuits((of_prelude, &mut *known));
     assembly.swarms();
     assembly.unused_libraries();
     assembly.unused_stimuli();
-    let Inspection { diagnostics, widths, instances, is_cancelled } = assembly.build(files.cancel());
+    let kept = std::mem::take(&mut known.modules);
+    let (found, modules) = assembly.build(files.cancel(), kept, &is_same);
+    let Inspection { diagnostics, widths, instances, is_cancelled } = found;
+    known.modules = modules;
     assembly.faults.extend(diagnostics);
     assembly.forget_redeclared();
     let uses = assembly.uses();
@@ -287,8 +292,8 @@ impl<'a> Assembly<'a> {
         self.program.enumerations.push(checked);
     }
 
-    /// Their widths are checked when they are built.
-    fn circuits(&mut self, (base, files): Known<'_>) {
+    /// Their widths are checked when they are built. Returns whether each is known from before.
+    fn circuits(&mut self, (base, files): Known<'_>) -> Vec<bool> {
         let mut sources = Vec::new();
         for (home, declaration) in self.declarations.all() {
             if let DeclarationKind::Circuit(source) = &declaration.kind {
@@ -300,7 +305,7 @@ impl<'a> Assembly<'a> {
         }
         let prelude = |name| self.names.circuits.find(name, Home::Prelude).map(|at| CircuitId(at as u32));
         (self.program.selector, self.program.stored) = (prelude("select"), prelude("stored"));
-        let mut calls = Vec::new();
+        let (mut calls, mut is_same) = (Vec::new(), Vec::new());
         files.begin(&self.circuits.homes, &self.circuits.headers.circuits, self.names.of_bodies());
         let (mut of_prelude, mut of_files) = (std::mem::take(base), std::mem::take(&mut files.circuits));
         for (&(span, source), &home) in sources.iter().zip(&self.circuits.homes) {
@@ -309,7 +314,9 @@ impl<'a> Assembly<'a> {
                 _ => (&mut of_files, &mut files.circuits),
             };
             let text = self.declarations.sources.text(span);
-            let checked = match before.remove_entry(text).filter(|(_, known)| known.home == home) {
+            let known = before.remove_entry(text).filter(|(_, known)| known.home == home);
+            is_same.push(known.is_some());
+            let checked = match known {
                 Some((text, known)) => {
                     let checked = known.at(span, &self.names, self.declarations.sources);
                     now.insert(text, known);
@@ -340,6 +347,7 @@ impl<'a> Assembly<'a> {
         for (at, header) in self.circuits.headers.circuits.iter().enumerate() {
             self.circuits.places.entry(header.name.clone()).or_insert(CircuitId(at as u32));
         }
+        is_same
     }
 
     fn uses(&mut self) -> NameUses {
@@ -431,9 +439,9 @@ impl<'a> Assembly<'a> {
         self.faults.extend(unused.map(|name| wording::unused("stimulus", &name.text, name.span)));
     }
 
-    fn build(&mut self, cancel: CancelFlag) -> Inspection {
+    fn build(&mut self, cancel: CancelFlag, kept: KeptModules, is_same: &[bool]) -> (Inspection, KeptModules) {
         let mut program = std::mem::take(&mut self.program);
-        let mut inspector = Inspector::new(&program, WorkBudget::until(cancel));
+        let mut inspector = Inspector::new(&program, WorkBudget::until(cancel), kept, is_same);
         for (at, home) in self.circuits.homes.iter().enumerate() {
             if *home != Home::Prelude && self.circuits.sound[at] {
                 inspector.inspect(CircuitId(at as u32));
