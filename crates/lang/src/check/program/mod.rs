@@ -6,7 +6,7 @@ mod runs;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::check::analysis::Analysis;
-use crate::check::circuit::{Header, Headers, circuit};
+use crate::check::circuit::{CheckedCircuit, Header, Headers, circuit};
 use crate::check::constant;
 use crate::check::declarations::Declarations;
 use crate::check::derived::{CheckState, order};
@@ -28,8 +28,8 @@ use crate::syntax::tree::{self, DeclarationKind, NameSyntax, Number, RecordKeywo
 use nbc_base::budget::WorkBudget;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{
-    CircuitId, Column, Evolution, ImageSize, Instance, LibrarySource, NamedFile, NamedWorld, Origin, Pattern, Program,
-    SearchObjective, Stimulation,
+    Circuit, CircuitId, Column, Evolution, ImageSize, Instance, LibrarySource, NamedFile, NamedWorld, Origin, Pattern,
+    Program, SearchObjective, Stimulation,
 };
 use nbc_base::source::{CancelFlag, FileId, SourceWorld, Sources, Span};
 use nbc_circuit::{Inspection, Inspector};
@@ -78,6 +78,8 @@ struct Assembly<'a> {
     circuits: CircuitTable,
     /// By the places of their paths.
     rows: &'a BTreeMap<Span, FileId>,
+    /// Circuits of other tools' files.
+    read: &'a [Circuit],
     inner: Vec<NameUse>,
 }
 
@@ -100,11 +102,34 @@ impl CircuitTable {
     }
 }
 
+#[derive(Clone, Copy)]
+enum DeclaredCircuit<'a> {
+    Text(&'a tree::CircuitSyntax),
+    Netlist(&'a Circuit),
+}
+
+impl DeclaredCircuit<'_> {
+    fn name(self) -> NameSyntax {
+        match self {
+            Self::Text(source) => source.name.clone(),
+            Self::Netlist(read) => NameSyntax { text: read.name.clone(), span: read.span },
+        }
+    }
+
+    fn header(self) -> Header {
+        match self {
+            Self::Text(source) => Header::of(source),
+            Self::Netlist(read) => Header::read(read),
+        }
+    }
+}
+
 impl<'a> Assembly<'a> {
     fn new(loaded: &'a Loaded, sources: &'a Sources) -> Self {
         Self {
             declarations: Declarations::new(&loaded.trees, sources),
             rows: &loaded.rows,
+            read: &loaded.circuits,
             names: Names::new(),
             program: Program::default(),
             faults: Vec::new(),
@@ -285,27 +310,35 @@ impl<'a> Assembly<'a> {
 
     /// Their widths are checked when they are built.
     fn circuits(&mut self) {
-        let mut sources = Vec::new();
-        for (home, declaration) in self.declarations.all() {
-            if let DeclarationKind::Circuit(source) = &declaration.kind {
-                self.faults.extend(self.names.circuits.declare(&source.name, sources.len(), home).err());
-                self.circuits.headers.circuits.push(Header::of(source));
-                sources.push((home, source));
-            }
+        let written = self.declarations.all().filter_map(|(home, declaration)| match &declaration.kind {
+            DeclarationKind::Circuit(source) => Some((home, DeclaredCircuit::Text(source))),
+            _ => None,
+        });
+        let mut sources: Vec<_> = written.collect();
+        let files = sources.partition_point(|(home, _)| *home == Home::Prelude);
+        sources.splice(files..files, self.read.iter().map(|read| (Home::Used, DeclaredCircuit::Netlist(read))));
+        for (place, (home, source)) in sources.iter().enumerate() {
+            self.faults.extend(self.names.circuits.declare(&source.name(), place, *home).err());
+            self.circuits.headers.circuits.push(source.header());
         }
         let prelude = |name| self.names.circuits.find(name, Home::Prelude).map(|at| CircuitId(at as u32));
         (self.program.selector, self.program.stored) = (prelude("select"), prelude("stored"));
         let mut calls = Vec::new();
-        for &(home, source) in &sources {
-            let checked =
-                circuit(source, home, Vocabulary::of(&self.names, &self.program), &self.circuits.headers, None);
-            let is_whole = !self.declarations.is_broken(source.name.span);
+        for (home, source) in sources {
+            let checked = match source {
+                DeclaredCircuit::Text(source) => {
+                    let declared = Vocabulary::of(&self.names, &self.program);
+                    circuit(source, home, declared, &self.circuits.headers, None)
+                }
+                DeclaredCircuit::Netlist(read) => CheckedCircuit::of(read.clone()),
+            };
+            let is_whole = !self.declarations.is_broken(checked.circuit.span);
             self.circuits.sound.push(is_whole && !checked.diagnostics.iter().any(Diagnostic::is_error));
             self.circuits.homes.push(home);
             self.faults.extend(checked.diagnostics);
             self.inner.extend(checked.uses);
             calls.push(checked.calls);
-            if source.is_environment {
+            if matches!(source, DeclaredCircuit::Text(source) if source.is_environment) {
                 self.program.environments.push(CircuitId(self.program.circuits.len() as u32));
             }
             self.program.circuits.push(checked.circuit);
