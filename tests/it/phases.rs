@@ -120,8 +120,8 @@ proptest! {
 
 #[test]
 fn a_clock_of_memory_whose_state_depends_on_delays_has_no_times() {
-    let body = "circuit memory(clk) -> (q) {\n    q = register[start = 1](0, clk)\n}\n";
-    let library = CellLibrary::uniform([Function::AND, Function::NOT]);
+    let body = "circuit memory(d, e) -> (q, r) {\n    q init 0 = if e then d else q\n    r = latch(d, e)\n}\n";
+    let [library, ..] = libraries();
     let netlist = mapped(body, &library);
     let timing = Timing::of(&netlist, &library, Delays::Clock);
     assert!(timing.storage.unphased.iter().any(|unphased| unphased.why == WhyUnphased::Race), "{netlist}");
@@ -151,6 +151,7 @@ fn registers_and_latches_are_recognized_in_any_library() {
         check("circuit memory(a, en) -> (q) {\n    q = latch(a, not en)\n}\n", &library, 1, 0, &[]);
         check("circuit memory(a, clk) -> (q[3]) {\n    q = register({a, q[2..1]}, clk)\n}\n", &library, 6, 3, &[]);
         check("circuit memory(clk) -> (q) {\n    q = register(not q, clk)\n}\n", &library, 2, 1, &[]);
+        check("circuit memory(clk) -> (q) {\n    q = register[start = 1](0, clk)\n}\n", &library, 2, 1, &[]);
         check("circuit memory(a, b, clk) -> (q) {\n    q = register(a, clk and b)\n}\n", &library, 2, 1, &[]);
         let paper = "circuit memory(d, e) -> (q) {\n    q init 0 = nand(nand(d, e), nq)\n    nq init 1 = \
                      nand(nand(not d, e), q)\n}\n";

@@ -9,7 +9,7 @@ use petgraph::stable_graph::{NodeIndex, StableDiGraph};
 use petgraph::visit::EdgeRef;
 
 use crate::blocks::{BlockId, Blocks};
-use crate::register::RegisterNode;
+use crate::register::{LoweredLatch, RegisterNode};
 use nbc_base::model::Function;
 use nbc_base::source::Span;
 
@@ -53,6 +53,8 @@ pub struct Netlist {
     inputs: Vec<NetId>,
     outputs: Vec<NetId>,
     blocks: Blocks,
+    /// What its registers have become, once they are robots.
+    pub(crate) latches: Vec<LoweredLatch>,
 }
 
 impl Netlist {
