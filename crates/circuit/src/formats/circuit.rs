@@ -21,7 +21,8 @@ pub fn circuit(design: &Design, file: FileId, text: &mut String) -> Circuit {
     let span = place("circuit ", &name);
     let (mut nets, mut sizes) = (Vec::new(), Vec::new());
     let inner = [&names.states, &names.nexts, &names.others].map(|nets| ("\n    net ", nets));
-    for (mut before, named) in [("(", &names.inputs), (") -> (", &names.outputs)].into_iter().chain(inner) {
+    let ports = [("(", &names.inputs), (") -> (", &names.outputs)];
+    for (at, (mut before, named)) in ports.into_iter().chain(inner).enumerate() {
         for net in named {
             let declared = place(before, &net.declared());
             let span = Span { end: declared.start + net.name.len() as u32, ..declared };
@@ -31,7 +32,7 @@ pub fn circuit(design: &Design, file: FileId, text: &mut String) -> Circuit {
             nets.push(Net { name: net.name.clone(), span, width, words, default, members, selects, is_text: false });
             before = ", ";
         }
-        if named.as_ptr() == names.outputs.as_ptr() {
+        if at == 1 {
             place(")", "");
         }
     }
