@@ -67,7 +67,7 @@ pub struct TestCase {
 
 #[derive(Clone, Debug)]
 pub(super) enum TestSubject {
-    Gates(Netlist, Arc<[TestRow]>),
+    Gates(Box<Netlist>, Arc<[TestRow]>),
     /// Gates whose rows depend on what they do.
     Script(Box<Performance>),
     Ever(Box<Equivalence>),
@@ -97,7 +97,7 @@ pub(super) fn cases(
     let logic = |netlist| {
         let subject = match &performance {
             Some(performance) => TestSubject::Script(Box::new(performance.clone())),
-            None => TestSubject::Gates(netlist, rows(program, test)?.into()),
+            None => TestSubject::Gates(Box::new(netlist), rows(program, test)?.into()),
         };
         Ok(vec![case(subject)])
     };
