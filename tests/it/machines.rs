@@ -69,9 +69,9 @@ impl RandomMachine {
             let first = registers.iter().position(is_rising).filter(|_| !is_plain && random.random_range(0..5) == 0);
             let input = if is_plain || random.random_range(0..3) > 0 { CLOCK } else { OTHER };
             let clock = first.map_or(input, |first| INPUTS.len() + first);
-            // What follows its clock late reads inputs only, and nothing forces it where that changes its clock, too, so
-            // that no change races it. Latches read what is before them, so that none drives itself while it is open.
-            let is_clock_forced = first.is_some_and(|first| registers[first].forcing > 0);
+            // What follows its clock late reads inputs only, so that no change races it. Nor does the end of a reset,
+            // which may set its clock. Latches read what is before them, so that none drives itself while it is open.
+            let is_clock_forced = first.is_some_and(|first| registers[first].forcing == 2);
             let known = match is_edge {
                 _ if first.is_some() => (0..DATA).collect::<Vec<_>>(),
                 true => (0..DATA).chain(CLOCK..if is_plain { CLOCK } else { INPUTS.len() + count }).collect(),

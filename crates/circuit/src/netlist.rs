@@ -9,7 +9,7 @@ use petgraph::stable_graph::{NodeIndex, StableDiGraph};
 use petgraph::visit::EdgeRef;
 
 use crate::blocks::{BlockId, Blocks};
-use crate::register::{LoweredLatch, RegisterNode};
+use crate::register::RegisterNode;
 use nbc_base::model::Function;
 use nbc_base::source::Span;
 
@@ -41,6 +41,18 @@ pub enum Node {
     },
     Cell(Cell),
     Register(RegisterNode),
+}
+
+/// A latch that a register has become which nothing forces, or one of the two of an edge, in order.
+#[derive(Clone, Debug)]
+pub(crate) struct LoweredLatch {
+    /// The cell that shows its bit, and the others of its loop, among which may be some beside it.
+    pub cells: Vec<NetId>,
+    pub enable: NetId,
+    /// The value of `enable` for which it is open.
+    pub open: bool,
+    /// Whether it is the second one of an edge.
+    pub is_second: bool,
 }
 
 pub(crate) type NetGraph = StableDiGraph<Node, u8, u32>;

@@ -1,20 +1,7 @@
 //! Registers: one bit of state each, as nodes of a netlist.
 
-use crate::NetId;
 pub use nbc_base::model::{Forcing, RegisterKind};
 use nbc_base::source::Span;
-
-/// A latch that a register has become which nothing forces, or one of the two of an edge, in order.
-#[derive(Clone, Debug)]
-pub(crate) struct LoweredLatch {
-    /// The cell that shows its bit, and the others of its loop, among which may be some beside it.
-    pub cells: Vec<NetId>,
-    pub enable: NetId,
-    /// The value of `enable` for which it is open.
-    pub open: bool,
-    /// Whether it is the second one of an edge.
-    pub is_second: bool,
-}
 
 /// A register in a netlist. Its pins are its data, its clock, and then the nets that force it.
 #[derive(Clone, Debug, PartialEq)]

@@ -12,9 +12,10 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::cells::CellLibrary;
+use crate::netlist::LoweredLatch;
 use crate::passes::dissolve_wires;
 use crate::recipes::{Operand, Recipe, Recipes};
-use crate::register::{Forcing, LoweredLatch};
+use crate::register::Forcing;
 use crate::{BlockId, Loops, MapError, NetId, Netlist, Node, RegisterKind, RegisterNode};
 use nbc_base::model::Function;
 
