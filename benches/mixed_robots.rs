@@ -4,7 +4,7 @@
 #![allow(dead_code, unused_imports)]
 
 use nbc_base::model::{CircuitTest, Robot, Stimulation};
-use nbc_circuit::{CellKind, Delays, MappingObjective, Timing};
+use nbc_circuit::{CellKind, MappingObjective, Timing};
 use nbc_session::store::DiskWorld;
 use nbc_session::{CompileOptions, Compiled, Session};
 use nbc_swarm::{Assembly, Settling};
@@ -28,7 +28,7 @@ impl Holds {
         let ids: Vec<_> = compiled.mapping.netlist.cells().map(|(id, _)| id).collect();
         let kinds: Vec<CellKind> = assembly.members.iter().map(|member| kind(&member.robot)).collect();
         let kind = |id| ids.iter().position(|&known| known == id).map_or(&kinds[0], |at| &kinds[at]);
-        let bound = Timing::with(&compiled.mapping.netlist, Delays::Clock, kind).hold;
+        let bound = Timing::with(&compiled.mapping.netlist, kind).hold;
         let mut settling = Settling::new(assembly, 1);
         let mut cycles = 0;
         for (row, inputs) in rows.iter().enumerate() {

@@ -19,7 +19,7 @@ use nbc_circuit::formats::{Design, blif, dot, verilog};
 use nbc_circuit::passes;
 use nbc_circuit::timing::{PhaseTiming, fan_out};
 use nbc_circuit::waves::WaveTiming;
-use nbc_circuit::{CellLibrary, Memory, NetId, Netlist, Race, levels, races, rings};
+use nbc_circuit::{CellLibrary, Memory, NetId, Netlist, levels, rings};
 use nbc_session::report::{self, Document, Schema};
 use nbc_session::store::DiskWorld;
 use nbc_session::{CompileOptions, Hardened, Mapping, Session};
@@ -66,7 +66,7 @@ enum Emit {
     Dot,
     /// The slowest path, the times of clocks, inputs and memory, and the largest fan-out
     Timing,
-    /// JSON with cells, levels, hold, critical path, clocks and races
+    /// JSON with cells, levels, hold, critical path and clocks
     Json,
 }
 
@@ -181,8 +181,6 @@ pub(super) struct BuiltCircuit<'a> {
     proved: bool,
     /// The robots that `--harden` left out.
     hardened: Option<Hardened>,
-    /// Null if the circuit is too large to look for them.
-    races: Option<Vec<Race>>,
 }
 
 #[derive(Serialize)]
@@ -213,11 +211,8 @@ impl<'a> BuiltCircuit<'a> {
     fn of(mapping: &'a Mapping, hardened: Hardened) -> Self {
         let Mapping { netlist: mapped, cells: library, kept, waves, .. } = mapping;
         let timing = mapping.timing();
-        // The rings and loops of a wave machine are its waves.
-        let (rings, races) = match waves {
-            None => (mapped.net_names(&rings(mapped)), races(mapped)),
-            Some(_) => (Vec::new(), Some(Vec::new())),
-        };
+        // The rings of a wave machine are its waves.
+        let rings = if waves.is_none() { mapped.net_names(&rings(mapped)) } else { Vec::new() };
         let name = |id: &NetId| mapped.net_name(*id);
         let fan_out: BTreeMap<NetId, usize> = fan_out(mapped).into_iter().collect();
         let cells = mapped.cells().map(|(id, cell)| BuiltCell {
@@ -247,7 +242,6 @@ impl<'a> BuiltCircuit<'a> {
             waves: waves.as_ref().map(WaveTiming::of),
             proved: true,
             hardened: (!hardened.tried.is_empty()).then_some(hardened),
-            races,
         }
     }
 }

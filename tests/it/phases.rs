@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use nbc_base::model::{Function, Instance};
 use nbc_circuit::timing::ClockTimes;
 use nbc_circuit::{
-    CellKind, CellLibrary, Delayed, Delays, Guarded, NetId, Netlist, RegisterForm, Role, Timing, WhyUnphased,
-    elaborate, lower, map,
+    CellKind, CellLibrary, Delayed, Guarded, NetId, Netlist, RegisterForm, Role, Timing, WhyUnphased, elaborate, lower,
+    map,
 };
 use nbc_session::store::DiskWorld;
 use nbc_session::{CompileOptions, Session};
@@ -35,7 +35,7 @@ fn delayed(netlist: &Netlist, kinds: &BTreeMap<NetId, CellKind>, random: &mut Ch
 /// Switches the clock, or any of the other inputs, and asserts that nothing changes after the static hold.
 fn settles_within_the_hold(elements: &[Element], netlist: &Netlist, random: &mut ChaCha8Rng) {
     let kinds = kinds(netlist, random);
-    let hold = Timing::with(netlist, Delays::Clock, |id| &kinds[&id]).hold as usize;
+    let hold = Timing::with(netlist, |id| &kinds[&id]).hold as usize;
     let mut delayed = delayed(netlist, &kinds, random);
     let mut inputs = [false; 4];
     delayed.run(&inputs, 2 * hold + 40);
@@ -56,7 +56,7 @@ fn settles_within_the_hold(elements: &[Element], netlist: &Netlist, random: &mut
 /// Runs a circuit at the least times of its clock, and asserts that every register stores what it is to.
 fn works_at_the_least_times(elements: &[Element], netlist: &Netlist, random: &mut ChaCha8Rng) {
     let kinds = kinds(netlist, random);
-    let timing = Timing::with(netlist, Delays::Clock, |id| &kinds[&id]);
+    let timing = Timing::with(netlist, |id| &kinds[&id]);
     let all = ClockTimes::all(netlist, &timing.storage, timing.hold, |id| &kinds[&id]);
     let Some(times) = all.iter().find(|times| times.clock == netlist.net_name(netlist.inputs()[CLOCK])) else { return };
     assert!(times.races.is_empty(), "an inverter of at most two cycles is no risk\n{netlist}");
@@ -120,10 +120,10 @@ proptest! {
 
 #[test]
 fn a_clock_of_memory_whose_state_depends_on_delays_has_no_times() {
-    let body = "circuit memory(clk) -> (q) {\n    q = register[start = 1](0, clk)\n}\n";
-    let library = CellLibrary::uniform([Function::AND, Function::NOT]);
+    let body = "circuit memory(d, e) -> (q, r) {\n    q init 0 = if e then d else q\n    r = latch(d, e)\n}\n";
+    let [library, ..] = libraries();
     let netlist = mapped(body, &library);
-    let timing = Timing::of(&netlist, &library, Delays::Clock);
+    let timing = Timing::of(&netlist, &library);
     assert!(timing.storage.unphased.iter().any(|unphased| unphased.why == WhyUnphased::Race), "{netlist}");
     let times = ClockTimes::all(&netlist, &timing.storage, timing.hold, library.kinds_of(&netlist));
     assert_eq!(times, []);
@@ -133,7 +133,7 @@ fn a_clock_of_memory_whose_state_depends_on_delays_has_no_times() {
 #[track_caller]
 fn check(body: &str, library: &CellLibrary, latches: usize, flip_flops: usize, unphased: &[WhyUnphased]) -> u32 {
     let netlist = mapped(body, library);
-    let timing = Timing::of(&netlist, library, Delays::Clock);
+    let timing = Timing::of(&netlist, library);
     let storage = &timing.storage;
     let why: Vec<WhyUnphased> = storage.unphased.iter().map(|unphased| unphased.why).collect();
     assert_eq!(
@@ -151,6 +151,7 @@ fn registers_and_latches_are_recognized_in_any_library() {
         check("circuit memory(a, en) -> (q) {\n    q = latch(a, not en)\n}\n", &library, 1, 0, &[]);
         check("circuit memory(a, clk) -> (q[3]) {\n    q = register({a, q[2..1]}, clk)\n}\n", &library, 6, 3, &[]);
         check("circuit memory(clk) -> (q) {\n    q = register(not q, clk)\n}\n", &library, 2, 1, &[]);
+        check("circuit memory(clk) -> (q) {\n    q = register[start = 1](0, clk)\n}\n", &library, 2, 1, &[]);
         check("circuit memory(a, b, clk) -> (q) {\n    q = register(a, clk and b)\n}\n", &library, 2, 1, &[]);
         let paper = "circuit memory(d, e) -> (q) {\n    q init 0 = nand(nand(d, e), nq)\n    nq init 1 = \
                      nand(nand(not d, e), q)\n}\n";
@@ -176,7 +177,7 @@ fn a_glitch_may_change_a_closed_latch() {
     let mut library = libraries()[0].clone();
     library.insert(Function::NAND, CellKind { glitches: true, ..CellKind::uniform(1, 1.0) });
     let netlist = mapped("circuit memory(a, en) -> (q) {\n    q = latch(a, en)\n}\n", &library);
-    let timing = Timing::of(&netlist, &library, Delays::Clock);
+    let timing = Timing::of(&netlist, &library);
     assert!(matches!(timing.storage.unphased[..], [ref one] if matches!(one.why, WhyUnphased::Glitch(_))));
 }
 
@@ -192,7 +193,7 @@ fn a_slow_inverter_of_the_clock_is_a_race_between_registers() {
     let mut library = libraries()[0].clone();
     let races = |library: &CellLibrary| {
         let netlist = mapped("circuit memory(a, clk) -> (q[2]) {\n    q = register({q[0], a}, clk)\n}\n", library);
-        let timing = Timing::of(&netlist, library, Delays::Clock);
+        let timing = Timing::of(&netlist, library);
         let times = ClockTimes::all(&netlist, &timing.storage, timing.hold, library.kinds_of(&netlist));
         times.iter().map(|times| times.races.len()).sum::<usize>()
     };
@@ -207,7 +208,7 @@ fn hold_of(file: &str) -> u32 {
     let checked = session.checked(root().join("circuits").join(file).to_str().unwrap());
     let circuit = &checked.program.tests[0].circuit;
     let mapping = checked.map(circuit, &CompileOptions::default()).unwrap();
-    Timing::of(&mapping.netlist, &mapping.cells, Delays::Clock).hold
+    Timing::of(&mapping.netlist, &mapping.cells).hold
 }
 
 #[test]
@@ -235,7 +236,7 @@ fn a_path_ends_at_a_closed_latch() {
     let library = CellLibrary::uniform([Function::NAND, Function::NOT]);
     let netlist = map(&elaborate(&program, &Instance::from("memory")).unwrap(), &library).unwrap();
     let netlist = lower(&netlist, &library, RegisterForm::Nands).unwrap();
-    let timing = Timing::of(&netlist, &library, Delays::Clock);
+    let timing = Timing::of(&netlist, &library);
     let path: Vec<String> = timing.critical_path.iter().map(|&id| netlist.net_name(id)).collect();
     assert_eq!(path.len() as u32, timing.hold + 1, "each cell takes one cycle: {path:?}");
     let nets: std::collections::BTreeSet<&String> = path.iter().collect();

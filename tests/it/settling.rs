@@ -1,7 +1,7 @@
 //! The holds of rows: no longer than needed, and long enough whatever robots do before they have settled.
 
 use nbc_base::model::{Function, Hears, Library, PhysicsWorld};
-use nbc_circuit::{CellLibrary, Delays, Timing};
+use nbc_circuit::{CellLibrary, Timing};
 use nbc_session::store::DiskWorld;
 use nbc_session::{Session, TestOptions};
 use nbc_swarm::{Assembly, Level, Settling, StimulusSource, assemble, cells};
@@ -106,7 +106,7 @@ proptest! {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let netlist = mapped(&text(&elements), &CellLibrary::uniform(Function::all().filter(|f| f.arity() == 2)));
         let library = robots(most, &mut random);
-        let bound = Timing::of(&netlist, &cells(&library), Delays::Clock).hold;
+        let bound = Timing::of(&netlist, &cells(&library)).hold;
         check(&assemble(&netlist, &library), bound, &mut random);
     }
 }
@@ -120,7 +120,7 @@ fn registers_of_quick_robots_settle_in_every_row() {
         &CellLibrary::uniform([Function::NAND, Function::NOT]),
     );
     let library = robots(1, &mut random);
-    let bound = Timing::of(&netlist, &cells(&library), Delays::Clock).hold;
+    let bound = Timing::of(&netlist, &cells(&library)).hold;
     assert_eq!(check(&assemble(&netlist, &library), bound, &mut random), 12);
 }
 

@@ -283,7 +283,7 @@ const ROOMS: [(&str, usize); 16] = [
     ("crates/base", 7_200),
     ("crates/circuit", 25_350),
     ("crates/cluster", 2_700),
-    ("crates/lang", 12_800),
+    ("crates/lang", 12_900),
     ("crates/learn", 2_650),
     ("crates/lsp", 5_350),
     ("crates/play", 6_330),

@@ -10,9 +10,6 @@ pub struct CellKind {
     pub cost: u32,
     /// Cycles for which its inputs must be held so that its output is correct, for any earlier inputs.
     pub clock: u32,
-    /// Cycles until the output is correct after a switch, `settle[from][to]`, with patterns numbered as the rows of the
-    /// function's truth table: `2a + b`, or `4a + 2b + c`.
-    pub settle: [[u32; 8]; 8],
     /// Smallest displacement in the correct direction at the end of a hold, in voxels per cycle.
     pub margin: f64,
     /// How far a world may differ before it makes errors; 0 if that was not measured.
@@ -23,16 +20,7 @@ pub struct CellKind {
 
 impl CellKind {
     pub const fn uniform(clock: u32, margin: f64) -> Self {
-        Self { cost: 1, clock, settle: [[clock; 8]; 8], margin, radius: 0.0, glitches: false }
-    }
-
-    /// Cycles from a change of `pin` to `value` until the output stays at `output`; none if that cannot follow.
-    pub(crate) fn settle_time(&self, function: Function, pin: usize, value: bool, output: bool) -> Option<u32> {
-        let bit = |row: usize| function.input_at(pin, row) == value;
-        let ends = |to: usize| bit(to) && function.row(to) == output;
-        let rows = 1 << function.inputs();
-        let transitions = (0..rows).flat_map(|from| (0..rows).map(move |to| (from, to)));
-        transitions.filter(|&(from, to)| ends(to) && !bit(from)).map(|(from, to)| self.settle[from][to]).max()
+        Self { cost: 1, clock, margin, radius: 0.0, glitches: false }
     }
 }
 
@@ -129,7 +117,6 @@ impl FromIterator<(Function, CellKind)> for CellLibrary {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::example::library;
 
     #[test]
@@ -152,15 +139,5 @@ mod tests {
             "nor nota_and_b nota a_and_notb notb xor nand xnor nota_or_b a_or_notb".replace("nota ", "not ")
         );
         assert_eq!(names("nand"), "");
-    }
-
-    #[test]
-    fn settle_times_are_the_longest_of_all_transitions() {
-        let mut kind = CellKind::uniform(1, 1.0);
-        kind.settle[0b11][0b01] = 3;
-        // a falls, the output of a nand rises.
-        assert_eq!(kind.settle_time(Function::NAND, 0, false, true), Some(3));
-        assert_eq!(kind.settle_time(Function::NAND, 0, true, false), Some(1));
-        assert_eq!(kind.settle_time(Function::NAND, 0, false, false), None);
     }
 }

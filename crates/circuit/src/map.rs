@@ -324,7 +324,7 @@ mod tests {
         let library = library("nand not");
         let hold = |objective| {
             let mapped = map_with(&netlist, &library, &MapOptions { objective, ..MapOptions::default() }).unwrap();
-            crate::Timing::of(&mapped, &library, crate::Delays::Clock).hold
+            crate::Timing::of(&mapped, &library).hold
         };
         let (area, delay) = (hold(MappingObjective::Area), hold(MappingObjective::Delay));
         assert!(delay < area, "{delay} cycles by delay, {area} by area");

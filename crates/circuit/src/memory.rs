@@ -74,7 +74,7 @@ mod tests {
     use crate::cells::{CellKind, CellLibrary};
     use crate::example::{flip_flop, latch};
     use crate::map::map;
-    use crate::{Delayed, Delays, RegisterForm, lower};
+    use crate::{Delayed, RegisterForm, lower};
     use nbc_base::model::Function;
 
     const CLOCK: u32 = 3;
@@ -84,7 +84,7 @@ mod tests {
     }
 
     fn memory(netlist: &Netlist) -> Vec<Memory> {
-        Memory::all(netlist, &Timing::of(netlist, &library(), Delays::Clock), |_| CLOCK)
+        Memory::all(netlist, &Timing::of(netlist, &library()), |_| CLOCK)
     }
 
     /// In how many of 300 random assignments of delays a latch loses the value `data`.

@@ -43,6 +43,18 @@ pub enum Node {
     Register(RegisterNode),
 }
 
+/// A latch that a register has become which nothing forces, or one of the two of an edge, in order.
+#[derive(Clone, Debug)]
+pub(crate) struct LoweredLatch {
+    /// The cell that shows its bit, and the others of its loop, among which may be some beside it.
+    pub cells: Vec<NetId>,
+    pub enable: NetId,
+    /// The value of `enable` for which it is open.
+    pub open: bool,
+    /// Whether it is the second one of an edge.
+    pub is_second: bool,
+}
+
 pub(crate) type NetGraph = StableDiGraph<Node, u8, u32>;
 
 /// A circuit as a graph: an edge runs from a driver to the pin (0, 1 or 2) that listens.
@@ -53,6 +65,8 @@ pub struct Netlist {
     inputs: Vec<NetId>,
     outputs: Vec<NetId>,
     blocks: Blocks,
+    /// What its registers have become, once they are robots.
+    pub(crate) latches: Vec<LoweredLatch>,
 }
 
 impl Netlist {

@@ -1,6 +1,5 @@
 //! A circuit as cells of a library.
 
-use nbc_circuit::timing::Delays;
 use nbc_circuit::waves::WaveMachine;
 use nbc_circuit::{CellLibrary, KeptLatch, Netlist, Proof, Timing};
 
@@ -21,7 +20,7 @@ impl Mapping {
     /// The hold of a wave machine is the length of a step.
     pub fn timing(&self) -> Timing {
         match &self.waves {
-            None => Timing::of(&self.netlist, &self.cells, Delays::Clock),
+            None => Timing::of(&self.netlist, &self.cells),
             Some(machine) => Timing::of_steps(machine.cycles_per_step() as u32),
         }
     }

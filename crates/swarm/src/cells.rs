@@ -113,12 +113,5 @@ fn kind(library: &Library, function: Function) -> Option<CellKind> {
     let mut kind = CellKind::uniform(character.clock, character.margin);
     kind.glitches = character.glitch_rate != 0.0;
     kind.radius = radius(character);
-    let patterns: Vec<Pattern> = (0..1 << function.inputs()).map(|row| fit.pattern(function, row)).collect();
-    for transition in &character.settle {
-        let rows = |pattern| patterns.iter().enumerate().filter(move |(_, own)| **own == pattern).map(|(row, _)| row);
-        for from in rows(transition.from) {
-            rows(transition.to).for_each(|to| kind.settle[from][to] = transition.cycles);
-        }
-    }
     Some(kind)
 }

@@ -5,7 +5,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::Table;
+use super::{Forcing, Function, RegisterKind, Table};
 use crate::source::Span;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +25,28 @@ pub struct Circuit {
     /// The number of integer slots: parameters, then loop variables and integers with names.
     pub variables: usize,
     pub memories: Vec<MemoryArray>,
+    /// The body of a circuit of another tool's file: its bits, from the first output on.
+    pub bits: Vec<DrivenBit>,
+}
+
+/// A bit of a net, and its value before the first cycle if it is state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DrivenBit {
+    pub driver: BitDriver,
+    pub start: Option<bool>,
+}
+
+/// What drives a bit. Bits 0 and 1 are the constants; then come those of the nets, the lowest bit of a net first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BitDriver {
+    Bit(u32),
+    Gate(Function, [u32; 2]),
+    /// Its data, its clock, a set and a reset.
+    Register(RegisterKind, Forcing, [u32; 4]),
+}
+
+impl DrivenBit {
+    pub const CONSTANTS: u32 = 2;
 }
 
 /// A memory of an environment: an array that is no net, with nets for each access.

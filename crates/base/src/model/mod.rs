@@ -22,6 +22,7 @@ mod palette;
 #[cfg(feature = "pictures")]
 mod png_file;
 mod program;
+mod register;
 mod robot;
 mod rules;
 mod schedule;
@@ -37,9 +38,9 @@ mod world;
 pub use behavior::{Behavior, Direction, Displacements};
 pub use body::{Body, LEAST_ACTUATORS};
 pub use circuit::{
-    Block, Circuit, CircuitId, Condition, Expression, ExpressionId, ExpressionKind, FreeNumber, Instance, MemoryArray,
-    MemoryRead, MemoryWrite, Net, NetSlot, Operator, Parameter, Relation, Size, SizeId, SizeKind, SizeOperator,
-    Statement, Target,
+    BitDriver, Block, Circuit, CircuitId, Condition, DrivenBit, Expression, ExpressionId, ExpressionKind, FreeNumber,
+    Instance, MemoryArray, MemoryRead, MemoryWrite, Net, NetSlot, Operator, Parameter, Relation, Size, SizeId,
+    SizeKind, SizeOperator, Statement, Target,
 };
 pub use claim::{Claim, InnerNet, Property, PropertyKind};
 pub use column::{Column, bit_parts};
@@ -60,6 +61,7 @@ pub use program::{
     Hold, InputSpell, LibrarySource, NamedFile, NamedImages, NamedSchedule, Origin, Program, RegisterStyle, Simulation,
     Swarm, WaveTimes,
 };
+pub use register::{Forcing, RegisterKind};
 pub use robot::{Character, Library, Provenance, Robot, SafeRadius, Transition};
 pub use rules::{Matter, Rules};
 pub use schedule::{Schedule, Spell};

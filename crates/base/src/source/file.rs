@@ -64,11 +64,16 @@ pub struct Sources {
 
 impl Sources {
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
-        let id = FileId(u32::try_from(self.files.len()).expect("fewer than 2^32 source files"));
+        let id = self.next();
         let mut text = text.into();
         text.drain(..text.len() - without_mark(&text).len());
         self.files.push(SourceFile { id, name: name.into(), lines: LineStarts::of(&text), text });
         id
+    }
+
+    /// The number of the next file.
+    pub fn next(&self) -> FileId {
+        FileId(u32::try_from(self.files.len()).expect("fewer than 2^32 source files"))
     }
 
     pub fn file(&self, id: FileId) -> &SourceFile {

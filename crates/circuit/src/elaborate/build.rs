@@ -329,6 +329,7 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
                 return None;
             }
         }
+        self.driven_bits();
         self.undriven();
         self.contradicting_starts();
         self.total();

@@ -6,6 +6,7 @@
 
 mod build;
 mod dense;
+mod driven;
 mod emit;
 mod flatten;
 mod instance;

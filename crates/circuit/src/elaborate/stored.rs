@@ -1,9 +1,8 @@
 //! The circuit of the prelude that the compiler makes: a register for each bit of a value.
 
 use crate::elaborate::build::ModuleBuilder;
-use crate::elaborate::module::{Bit, ModuleNet, ModuleSignal};
+use crate::elaborate::module::{ModuleNet, ModuleSignal};
 use crate::elaborate::wording;
-use crate::index::ListIndex;
 use crate::register::{Forcing, RegisterKind};
 
 /// The bits of an integer.
@@ -32,11 +31,7 @@ impl ModuleBuilder<'_, '_> {
             let start = bit < START_BITS && start >> bit & 1 == 1;
             let pins = [data.0 + bit, clock.0, set.0, reset.0];
             let register = self.signal(ModuleSignal::Register { kind, forcing, start, pins });
-            let net: Bit = shown.0 + bit;
-            if let ModuleSignal::Net { driver, .. } = &mut self.module.signals[net as usize] {
-                *driver = Some(ListIndex::new(register));
-            }
-            self.module.starts.push((net, start));
+            self.drive_by(shown.0 + bit, register, Some(start));
         }
         Some(())
     }

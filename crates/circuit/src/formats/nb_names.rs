@@ -58,6 +58,8 @@ pub(super) struct NbNames {
     /// The values of registers that no output shows, then the next values that cells compute.
     pub(super) states: Vec<NamedNet>,
     pub(super) nexts: Vec<NamedNet>,
+    /// The other cells and wires, of one bit each.
+    pub(super) others: Vec<NamedNet>,
     pub(super) stand_ins: BTreeMap<NetId, NetId>,
     bits: BTreeMap<NetId, NamedBit>,
     taken: BTreeSet<String>,
@@ -110,7 +112,8 @@ impl NbNames {
         for id in logic.ids().filter(|&id| matches!(logic.node(id), Node::Cell(_) | Node::Wire { .. })) {
             if !self.stand_ins.contains_key(&id) && !self.bits.contains_key(&id) {
                 let name = free(&mut self.taken, word(&logic.net_name(id)));
-                self.bits.insert(id, NamedBit::alone(name));
+                self.bits.insert(id, NamedBit::alone(name.clone()));
+                self.others.push(NamedNet { name, bits: vec![id] });
             }
         }
     }

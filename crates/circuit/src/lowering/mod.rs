@@ -12,6 +12,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::cells::CellLibrary;
+use crate::netlist::LoweredLatch;
 use crate::passes::dissolve_wires;
 use crate::recipes::{Operand, Recipe, Recipes};
 use crate::register::Forcing;
@@ -38,8 +39,9 @@ pub fn lower(mapped: &Netlist, library: &CellLibrary, form: RegisterForm) -> Res
         let known = library.functions().collect();
         return Err(MapError::Incomplete { missing, known, completions: library.completions() });
     }
-    Lowering::new(&mut netlist, Some(recipes)).all(form);
+    let latches = Lowering::new(&mut netlist, Some(recipes)).all(form);
     dissolve_wires(&mut netlist)?;
+    netlist.latches = latches;
     Ok(netlist)
 }
 
@@ -102,14 +104,18 @@ struct Lowering<'n> {
     recipes: Option<Recipes>,
     block: BlockId,
     inverses: BTreeMap<NetId, NetId>,
+    /// The cells made since a latch was begun.
+    made: Vec<NetId>,
+    latches: Vec<LoweredLatch>,
 }
 
 impl<'n> Lowering<'n> {
     fn new(netlist: &'n mut Netlist, recipes: Option<Recipes>) -> Self {
-        Self { netlist, recipes, block: BlockId::TOP, inverses: BTreeMap::new() }
+        let (inverses, made, latches) = (BTreeMap::new(), Vec::new(), Vec::new());
+        Self { netlist, recipes, block: BlockId::TOP, inverses, made, latches }
     }
 
-    fn all(mut self, form: RegisterForm) {
+    fn all(mut self, form: RegisterForm) -> Vec<LoweredLatch> {
         let registers: Vec<_> = self.netlist.registers().map(|(id, register)| (id, register.clone())).collect();
         for (id, register) in registers {
             let mut pins = self.netlist.pins(id);
@@ -129,7 +135,18 @@ impl<'n> Lowering<'n> {
                 _ => self.nands(&register, &name, &pins),
             };
             self.netlist.connect(id, 0, shown);
+            if register.kind.is_edge() && register.forcing == Forcing::Never {
+                self.latches.last_mut().expect("an edge has two latches").is_second = true;
+            }
         }
+        self.latches
+    }
+
+    /// Notes the cells made, of which `shown` shows the bit, as a latch.
+    fn note(&mut self, shown: NetId, enable: NetId, open: bool) {
+        let others = std::mem::take(&mut self.made).into_iter().filter(|&cell| cell != shown);
+        let cells = std::iter::once(shown).chain(others).collect();
+        self.latches.push(LoweredLatch { cells, enable, open, is_second: false });
     }
 
     fn is_one_cell(&self, function: Function) -> bool {
@@ -159,6 +176,7 @@ impl<'n> Lowering<'n> {
     fn cell(&mut self, function: Function, pins: &[NetId]) -> NetId {
         let made = self.netlist.add_gate(function, pins);
         self.netlist.put_into(made, self.block);
+        self.made.push(made);
         made
     }
 

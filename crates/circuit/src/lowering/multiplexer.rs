@@ -26,8 +26,10 @@ impl Lowering<'_> {
         let start = register.starts_at();
         let mut latch = |name: &str, function, data| {
             let own = self.kept(name.to_owned(), start);
+            self.made.clear();
             let cell = self.cell(function, &[pins[1], data, own]);
             self.netlist.connect(own, 0, cell);
+            self.note(cell, pins[1], function == OPEN_HIGH);
             own
         };
         match register.kind {

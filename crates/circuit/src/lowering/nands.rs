@@ -20,6 +20,8 @@ struct Forces {
 struct Guard {
     enable: NetId,
     function: Function,
+    /// The value of `enable` that lets them in.
+    open: bool,
 }
 
 impl Lowering<'_> {
@@ -29,7 +31,7 @@ impl Lowering<'_> {
         let [data, clock] = [pins[0], pins[1]];
         let start = register.starts_at();
         let forces = self.forces(register, &pins[2..]);
-        let on = Guard { enable: clock, function: Function::NAND };
+        let on = Guard { enable: clock, function: Function::NAND, open: true };
         if register.kind == RegisterKind::High {
             return self.latch(name, data, on, start, forces);
         }
@@ -48,9 +50,9 @@ impl Lowering<'_> {
     fn guard_at_zero(&mut self, clock: NetId) -> Guard {
         let function = Function::NAND.with_input_inverted(1);
         if self.is_one_cell(function) {
-            return Guard { enable: clock, function };
+            return Guard { enable: clock, function, open: false };
         }
-        Guard { enable: self.inverse(clock), function: Function::NAND }
+        Guard { enable: self.inverse(clock), function: Function::NAND, open: true }
     }
 
     fn forces(&mut self, register: &RegisterNode, nets: &[NetId]) -> Forces {
@@ -72,6 +74,7 @@ impl Lowering<'_> {
     fn latch(&mut self, name: &str, data: NetId, guard: Guard, start: bool, forces: Forces) -> NetId {
         let set = self.gate(guard.function, &[data, guard.enable]);
         let clear = self.gate(guard.function, &[set, guard.enable]);
+        self.made.clear();
         let opposite = self.kept(format!("{name}.n"), !start);
         let back = self.passed(format!("{name}.down"), !start, opposite, forces.stay);
         let shown = self.gate(Function::NAND, &[set, back]);
@@ -80,6 +83,10 @@ impl Lowering<'_> {
         let kept = self.passed(format!("{name}.kept"), start, own, forces.go);
         let other = self.gate(Function::NAND, &[clear, kept]);
         self.netlist.connect(opposite, 0, other);
+        // What forces a latch reaches it while it is closed.
+        if forces.go.is_none() && forces.stay.is_none() {
+            self.note(shown, guard.enable, guard.open);
+        }
         own
     }
 

@@ -1,4 +1,4 @@
-//! The recognition of a latch: one net closes it, whatever its other inputs do, and it then keeps its state.
+//! A latch: one net closes it, whatever its other inputs do, and it then keeps its state.
 
 use std::collections::BTreeMap;
 
@@ -98,14 +98,16 @@ pub enum WhyUnphased {
     StaysOpen,
 }
 
-pub(super) fn recognize<'k>(
+/// `known` is the net that closes it, and at which value, of a latch that lowering has made.
+pub(super) fn latch<'k>(
     netlist: &Netlist,
     inverters: &Inverters,
     element: &[NetId],
+    known: Option<(NetId, bool)>,
     kind: &impl Fn(NetId) -> &'k CellKind,
 ) -> Result<Latch, WhyUnphased> {
     let cone = Cone::new(netlist, element);
-    let (enable, closed) = closing(&cone).ok_or(WhyUnphased::NoEnable)?;
+    let (enable, closed) = known.or_else(|| closing(&cone)).ok_or(WhyUnphased::NoEnable)?;
     let guards = cone.guards(enable);
     if let Some(&cell) = element.iter().chain(&guards).find(|&&id| kind(id).glitches) {
         return Err(WhyUnphased::Glitch(cell));

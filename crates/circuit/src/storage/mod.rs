@@ -1,12 +1,13 @@
-//! Storage: the latches and flip-flops of a netlist, recognized by what their cells do, and the net that opens and
-//! closes each (docs/timing.md, "Static timing").
+//! Storage: the latches and flip-flops of a netlist, and the net that opens and closes each (docs/timing.md, "Static
+//! timing"). Those of registers are known from lowering; loops that were written as cells are recognized by what they
+//! do.
 
 mod cone;
 mod element;
 mod latch;
 mod raise;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::cells::CellKind;
 use crate::loops::Loops;
@@ -40,13 +41,30 @@ impl Storage {
         }
         let inverters = Inverters::of(netlist);
         let mut storage = Self::default();
-        for nets in element::elements(netlist, &loops) {
-            match latch::recognize(netlist, &inverters, &nets, &kind) {
-                Ok(latch) => storage.latches.push(latch),
-                Err(why) => storage.unphased.push(Unphased { nets, why }),
+        let lowered: BTreeSet<NetId> = netlist.latches.iter().flat_map(|latch| latch.cells.clone()).collect();
+        let made = netlist.latches.iter().map(|latch| {
+            let mut nets = element::shortest_loop(netlist, latch.cells[0], |id| latch.cells.contains(&id));
+            nets.sort_unstable();
+            (nets, Some((latch.enable, !latch.open)), latch.is_second)
+        });
+        let written = element::elements(netlist, &loops, &lowered).into_iter().map(|nets| (nets, None, false));
+        let mut last = None;
+        for (nets, closing, is_second) in made.chain(written) {
+            let number = storage.latches.len();
+            match latch::latch(netlist, &inverters, &nets, closing, &kind) {
+                Ok(latch) => {
+                    let pair = last.filter(|_| is_second);
+                    let pair = pair.map(|first| FlipFlop { first, second: number, rising: latch.open });
+                    storage.flip_flops.extend(pair);
+                    storage.latches.push(latch);
+                    last = Some(number);
+                }
+                Err(why) => {
+                    storage.unphased.push(Unphased { nets, why });
+                    last = None;
+                }
             }
         }
-        storage.flip_flops = flip_flops(&storage.latches, &inverters);
         storage
     }
 
@@ -58,40 +76,4 @@ impl Storage {
         roots.sort_by_key(|&(root, count)| (std::cmp::Reverse(count), root));
         roots
     }
-}
-
-/// The second latch of a pair takes only the state of the first, and is open when that is closed. Any two neighbors in
-/// a chain are such a pair, so the edge of more pairs counts first; between equals it is the rise.
-fn flip_flops(latches: &[Latch], inverters: &Inverters) -> Vec<FlipFlop> {
-    let pairs = pairs(latches, inverters);
-    let key = |pair: &FlipFlop| (latches[pair.second].root, pair.rising);
-    let mut counts: BTreeMap<(NetId, bool), usize> = BTreeMap::new();
-    pairs.iter().for_each(|pair| *counts.entry(key(pair)).or_insert(0) += 1);
-    let mut ordered: Vec<&FlipFlop> = pairs.iter().collect();
-    ordered.sort_by_key(|pair| (std::cmp::Reverse((counts[&key(pair)], pair.rising)), pair.second));
-    let mut is_paired = vec![false; latches.len()];
-    let mut found = Vec::new();
-    for pair in ordered {
-        if !is_paired[pair.first] && !is_paired[pair.second] {
-            (is_paired[pair.first], is_paired[pair.second]) = (true, true);
-            found.push(pair.clone());
-        }
-    }
-    found.sort_by_key(|pair| pair.second);
-    found
-}
-
-fn pairs(latches: &[Latch], inverters: &Inverters) -> Vec<FlipFlop> {
-    let owner: BTreeMap<NetId, usize> =
-        (0..).zip(latches).flat_map(|(i, latch)| latch.cells.iter().map(move |&cell| (cell, i))).collect();
-    let mut pairs = Vec::new();
-    for (second, latch) in latches.iter().enumerate() {
-        let mut drivers = latch.data.iter().map(|&net| owner.get(&inverters.root(net).0));
-        let Some(Some(&first)) = drivers.next() else { continue };
-        let opposite = latches[first].root == latch.root && latches[first].open != latch.open;
-        if opposite && drivers.all(|driver| driver == Some(&first)) {
-            pairs.push(FlipFlop { first, second, rising: latch.open });
-        }
-    }
-    pairs
 }

@@ -7,7 +7,7 @@ use petgraph::visit::{Dfs, NodeIndexable};
 use serde::Serialize;
 
 use crate::cells::CellKind;
-use crate::timing::arrivals::{Arrivals, Delay, Delays};
+use crate::timing::arrivals::{Arrivals, Delay};
 use crate::timing::phase::{MOST_ROOTS, Passage, Phase, RootValues, earliest, passages, phases};
 use crate::timing::update::NetUpdate;
 use crate::{Latch, NetId, Netlist, Node, Storage, WhyUnphased};
@@ -122,7 +122,7 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Clocked<'_, F> {
     }
 
     fn delay(&self) -> Delay<'_, F> {
-        Delay { netlist: self.netlist, delays: Delays::Clock, kind: self.kind }
+        Delay { netlist: self.netlist, kind: self.kind }
     }
 
     fn halves(&self, sources: &[NetId]) -> Halves {
@@ -179,7 +179,7 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Clocked<'_, F> {
             let arrivals = Arrivals::from(&self.delay(), phase, start);
             for (i, update) in phase.updates.iter().enumerate().filter(|(_, update)| phase.is_real(update)) {
                 let change = &mut changes[update.node.index()];
-                *change = (*change).max(arrivals.latest(i).unwrap_or(0));
+                *change = (*change).max(arrivals.times[i].unwrap_or(0));
             }
         }
         changes
@@ -200,7 +200,7 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Clocked<'_, F> {
                 let earliest = earliest(self.netlist, self.storage, passages, &[input], &[]);
                 for latch in self.open(!rises) {
                     let settled = (0..).zip(&phase.updates).filter(|(_, update)| latch.cells.contains(&update.node));
-                    let Some(settled) = settled.filter_map(|(i, _)| arrivals.latest(i)).max() else { continue };
+                    let Some(settled) = settled.filter_map(|(i, _)| arrivals.times[i]).max() else { continue };
                     let setup = settled.saturating_sub(latch.chain.len() as u32);
                     let closed = latch.chain.iter().map(|&id| (self.kind)(id).clock).sum();
                     let hold = latch.needed(self.netlist, self.kind, closed, &earliest).unwrap_or(0);

@@ -17,7 +17,6 @@ use crate::timing::arrivals::{Arrivals, Delay};
 use crate::timing::phase::{MOST_ROOTS, Phase, passages, phases};
 use crate::{NetId, Netlist, Node, Storage, Unphased, WhyUnphased};
 
-pub use arrivals::Delays;
 pub use clock::{ClockPath, ClockTimes, InputTimes};
 pub use phase_timing::{PhaseTiming, TimedFlipFlop, TimedLatch, UnphasedLoop};
 
@@ -38,8 +37,8 @@ struct NetTime {
 }
 
 impl Timing {
-    pub fn of(netlist: &Netlist, library: &CellLibrary, delays: Delays) -> Self {
-        Self::with(netlist, delays, library.kinds_of(netlist))
+    pub fn of(netlist: &Netlist, library: &CellLibrary) -> Self {
+        Self::with(netlist, library.kinds_of(netlist))
     }
 
     /// The timing of a wave machine, in which a row is a step of so many cycles and no path is longer than another.
@@ -47,10 +46,10 @@ impl Timing {
         Self { times: Vec::new(), hold: cycles, critical_path: Vec::new(), storage: Storage::default() }
     }
 
-    pub fn with<'k>(netlist: &Netlist, delays: Delays, kind: impl Fn(NetId) -> &'k CellKind) -> Self {
+    pub fn with<'k>(netlist: &Netlist, kind: impl Fn(NetId) -> &'k CellKind) -> Self {
         let mut storage = Storage::of(netlist, &kind);
         let phases = timed_phases(netlist, &mut storage, &kind);
-        let delay = Delay { netlist, delays, kind: &kind };
+        let delay = Delay { netlist, kind: &kind };
         let timed: Vec<(Phase, Arrivals)> = phases
             .into_iter()
             .map(|phase| {
@@ -73,7 +72,7 @@ impl Timing {
             for (i, update) in phase.updates.iter().enumerate().filter(|(_, update)| phase.is_real(update)) {
                 let time = &mut times[update.node.index()];
                 let old = time.unwrap_or(NetTime { arrival: 0, slack: hold });
-                let arrival = old.arrival.max(arrivals.latest(i).unwrap_or(0));
+                let arrival = old.arrival.max(arrivals.times[i].unwrap_or(0));
                 *time = Some(NetTime { arrival, slack: old.slack.min(slack[i]) });
             }
         }
@@ -144,7 +143,7 @@ mod tests {
         let mut library = CellLibrary::uniform([Function::XOR, Function::AND, Function::OR]);
         library.insert(Function::XOR, CellKind::uniform(4, 1.0));
         let mapped = map(&full_adder(), &library).unwrap();
-        let timing = Timing::of(&mapped, &library, Delays::Clock);
+        let timing = Timing::of(&mapped, &library);
         assert_eq!(timing.hold, 8);
         assert!(timing.critical_path.iter().all(|&id| timing.slack(id) == 0));
         let carry = mapped.outputs()[1];
@@ -155,28 +154,10 @@ mod tests {
     fn the_hold_of_a_latch_covers_its_guards_and_its_pair() {
         let library = CellLibrary::uniform([Function::NAND, Function::NOT]);
         let mapped = map(&latch(), &library).unwrap();
-        let timing = Timing::of(&mapped, &library, Delays::Clock);
+        let timing = Timing::of(&mapped, &library);
         assert_eq!(timing.hold, 2 + 2);
         assert_eq!(timing.critical_path.len(), 1 + 2 + 2);
         assert!(names(&mapped, &timing.critical_path).starts_with("d "));
-    }
-
-    #[test]
-    fn settle_times_of_transitions_are_used() {
-        let mut library = CellLibrary::uniform([Function::NAND]);
-        let mut slow_rise = CellKind::uniform(9, 1.0);
-        slow_rise.settle = [[1; 8]; 8];
-        (0..3).for_each(|to| slow_rise.settle[3][to] = 3);
-        library.insert(Function::NAND, slow_rise);
-        let mut netlist = Netlist::new("chain");
-        let a = netlist.add_input("a");
-        let b = netlist.add_input("b");
-        let one = netlist.add_gate(Function::NAND, &[a, b]);
-        let two = netlist.add_gate(Function::NAND, &[one, b]);
-        netlist.add_output("q", two);
-        // Rises take three cycles and falls one, and they alternate.
-        assert_eq!(Timing::of(&netlist, &library, Delays::Transition).hold, 4);
-        assert_eq!(Timing::of(&netlist, &library, Delays::Clock).hold, 18);
     }
 
     #[test]

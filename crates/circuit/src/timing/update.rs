@@ -12,8 +12,8 @@ use crate::netlist::NetGraph;
 #[derive(Clone, Debug)]
 pub(super) struct NetUpdate {
     pub node: NetId,
-    /// The pins that an earlier update drives, with the number of that update.
-    pub pins: Vec<(u8, usize)>,
+    /// The earlier updates that drive its pins.
+    pub drivers: Vec<usize>,
 }
 
 /// The updates of a graph in an order with pins first, and the loops that are not one of `elements`.
@@ -53,9 +53,9 @@ impl UpdateOrder<'_> {
     fn update_together(&mut self, nodes: &[NetId]) {
         let first = self.list.len();
         for &node in nodes {
-            let pins = pins(self.graph, node).into_iter();
-            let pins = pins.filter_map(|(pin, driver)| Some((pin, *self.last.get(&driver)?))).collect();
-            self.list.push(NetUpdate { node, pins });
+            let drivers = pins(self.graph, node).into_iter();
+            let drivers = drivers.filter_map(|(_, driver)| self.last.get(&driver).copied()).collect();
+            self.list.push(NetUpdate { node, drivers });
         }
         self.last.extend(nodes.iter().copied().zip(first..));
     }

@@ -107,5 +107,6 @@ fn call(
         tables: Vec::new(),
         variables: 0,
         memories: Vec::new(),
+        bits: Vec::new(),
     }
 }

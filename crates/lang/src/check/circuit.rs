@@ -57,6 +57,21 @@ impl Header {
         (&self.name, [&self.parameters, &self.inputs, &self.outputs], &self.optional)
     }
 
+    /// Of a circuit without parameters.
+    pub(crate) fn read(circuit: &Circuit) -> Self {
+        let (inputs, rest) = circuit.nets.split_at(circuit.inputs);
+        let names = |nets: &[Net]| nets.iter().map(|net| net.name.clone()).collect();
+        let ports = &circuit.nets[..circuit.inputs + circuit.outputs];
+        Self {
+            name: circuit.name.clone(),
+            parameters: Vec::new(),
+            inputs: names(inputs),
+            optional: vec![false; inputs.len()],
+            outputs: names(&rest[..circuit.outputs]),
+            places: [Vec::new(), ports.iter().map(|net| net.span).collect()],
+        }
+    }
+
     pub(crate) fn parameter(&self, name: &tree::NameSyntax) -> Option<NameUse> {
         let at = self.parameters.iter().position(|known| *known == name.text)?;
         Some(NameUse { place: name.span, declared: self.places[0][at], kind: NameKind::Number })
@@ -106,6 +121,12 @@ pub(crate) struct CheckedCircuit {
     pub(crate) uses: Vec<NameUse>,
 }
 
+impl CheckedCircuit {
+    pub(crate) fn of(circuit: Circuit) -> Self {
+        Self { circuit, calls: Vec::new(), diagnostics: Vec::new(), uses: Vec::new() }
+    }
+}
+
 /// Checks properties of steps, in which `before` is a register clocked by the last input.
 pub(crate) fn monitor(source: &tree::CircuitSyntax, declared: Vocabulary<'_>, headers: &Headers) -> CheckedCircuit {
     let clock = NetSlot(source.inputs.len() as u32 - 1);
@@ -132,6 +153,7 @@ pub(crate) fn circuit(
         body: Block::default(),
         variables: 0,
         memories: Vec::new(),
+        bits: Vec::new(),
     };
     let mut checker = CircuitChecker {
         body: &source.body,
@@ -425,7 +447,7 @@ impl<'a> CircuitChecker<'a> {
             if !self.driven[slot] {
                 let what = if slot < self.circuit.inputs + self.circuit.outputs { "output" } else { "net" };
                 self.diagnostics.push(wording::undriven(what, &net.name, net.span));
-            } else if !self.used[slot] && !typo && !matches!(self.home, Home::Prelude | Home::Foreign) {
+            } else if !self.used[slot] && !typo && self.home != Home::Prelude {
                 let what = if slot < self.circuit.inputs { "input" } else { "net" };
                 self.diagnostics.push(wording::unused(what, &net.name, net.span));
             }

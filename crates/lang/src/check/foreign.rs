@@ -1,11 +1,11 @@
-//! Circuits of other tools' files, translated to source text of the language.
+//! Designs of other tools' files, without the registers that they do not need.
 
 use crate::check::verilog_files::verilog_files;
 use crate::check::wording::{self, at_use};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::source::{ForeignCircuit, SourceFile, SourceWorld, Span, VerilogModule};
 use nbc_circuit::correspondence;
-use nbc_circuit::formats::{CircuitSource, Design, aiger, bench, blif, is_word, nb, pla, verilog_module};
+use nbc_circuit::formats::{CircuitSource, Design, aiger, bench, blif, is_word, pla, verilog_module};
 
 pub(super) struct Foreign<'a> {
     pub(super) world: &'a dyn SourceWorld,
@@ -15,24 +15,22 @@ pub(super) struct Foreign<'a> {
 }
 
 pub(super) struct ForeignDesign {
-    pub(super) text: String,
+    pub(super) designs: Vec<Design>,
     pub(super) warnings: Vec<Diagnostic>,
     pub(super) circuits: Vec<ForeignCircuit>,
 }
 
 impl Foreign<'_> {
-    pub(super) fn bench(&self, source: &SourceFile) -> Result<String, Vec<Diagnostic>> {
-        self.circuit(&self.titled(bench::read(&source.text, source.id, Some(Design::CLOCK))?))
-    }
-
-    pub(super) fn blif(&self, source: &SourceFile) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
-        let text = self.circuit(&blif::read(&source.text, source.id, Some(Design::CLOCK))?)?;
-        Ok((text, blif::ignored(&source.text, source.id)))
-    }
-
-    pub(super) fn pla(&self, source: &SourceFile) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
-        let text = self.circuit(&self.titled(pla::read(&source.text, source.id)?))?;
-        Ok((text, pla::opened(&source.text, source.id)))
+    /// The design of a file of any format but Verilog, and warnings; `source` is its text, if it is one.
+    pub(super) fn design(&self, source: Option<&SourceFile>) -> Result<(Design, Vec<Diagnostic>), Vec<Diagnostic>> {
+        let Some(SourceFile { text, id, .. }) = source else { return Ok((self.aiger()?, Vec::new())) };
+        let clock = Some(Design::CLOCK);
+        let (design, warnings) = match self.format {
+            CircuitSource::Pla => (self.titled(pla::read(text, *id)?), pla::opened(text, *id)),
+            CircuitSource::Bench => (self.titled(bench::read(text, *id, clock)?), Vec::new()),
+            _ => (blif::read(text, *id, clock)?, blif::ignored(text, *id)),
+        };
+        Ok((self.circuit(&design)?, warnings))
     }
 
     pub(super) fn verilog(&self, files: &[&SourceFile]) -> Result<ForeignDesign, Vec<Diagnostic>> {
@@ -40,20 +38,19 @@ impl Foreign<'_> {
         let modules = self.world.read_verilog(&verilog_files(self.world, files));
         let modules = modules.map_err(|error| here(Diagnostic::unread_verilog(files, &error)))?;
         let circuit = |module: &VerilogModule| self.circuit(&self.module(module, files)?);
-        let texts: Result<Vec<String>, _> = modules.modules.iter().map(circuit).collect();
         let origin = |(at, module): (usize, &VerilogModule)| ForeignCircuit {
             file: self.name.to_owned(),
             circuit: module.name.clone(),
             origin: modules.origin(at),
         };
         Ok(ForeignDesign {
-            text: texts?.join("\n"),
+            designs: modules.modules.iter().map(circuit).collect::<Result<_, _>>()?,
             warnings: here(modules.notes.iter().map(|note| Diagnostic::of_verilog(files, note)).collect()),
             circuits: modules.modules.iter().enumerate().map(origin).collect(),
         })
     }
 
-    pub(super) fn aiger(&self) -> Result<String, Vec<Diagnostic>> {
+    fn aiger(&self) -> Result<Design, Vec<Diagnostic>> {
         let unreadable = |error| vec![wording::unreadable_use(self.name, &error, &Suggestion::None, self.place)];
         let bytes = self.world.read_bytes(self.name).map_err(unreadable)?;
         let design = aiger::read(&bytes, Some(Design::CLOCK)).map_err(|fault| vec![at_use(fault, self.place)])?;
@@ -73,13 +70,13 @@ impl Foreign<'_> {
         design.map_err(|faults| faults.into_iter().map(|fault| at_use(fault, self.place)).collect())
     }
 
-    fn circuit(&self, design: &Design) -> Result<String, Vec<Diagnostic>> {
+    fn circuit(&self, design: &Design) -> Result<Design, Vec<Diagnostic>> {
         let name = &design.netlist.name;
         self.legal(name)?;
         if design.netlist.outputs().is_empty() {
             return Err(vec![wording::no_outputs(name, self.place)]);
         }
-        Ok(nb::write(&correspondence::reduce(design).0))
+        Ok(correspondence::reduce(design).0)
     }
 
     fn legal(&self, circuit: &str) -> Result<(), Vec<Diagnostic>> {

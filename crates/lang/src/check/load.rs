@@ -9,8 +9,9 @@ use crate::syntax::tree::{DeclarationKind, TestKind, Text, Tree};
 use crate::syntax::{KnownTexts, parse_again};
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Suggestion, similar_file};
+use nbc_base::model::Circuit;
 use nbc_base::source::{FileError, FileId, ForeignCircuit, ProofOrigin, SourceWorld, Sources, Span};
-use nbc_circuit::formats::CircuitSource;
+use nbc_circuit::formats::{CircuitSource, Design, circuit};
 use nbc_circuit::rows::RowFormat;
 
 pub const PRELUDE: [(&str, &str); 2] = [
@@ -42,6 +43,8 @@ pub(crate) struct Loaded {
     pub(crate) faults: Vec<Diagnostic>,
     pub(crate) incomplete: BTreeSet<FileId>,
     pub(crate) foreign: Vec<ForeignCircuit>,
+    /// Of other tools' files, in the order of `foreign`.
+    pub(crate) circuits: Vec<Circuit>,
     /// By the places of their paths.
     pub(crate) rows: BTreeMap<Span, FileId>,
 }
@@ -57,7 +60,9 @@ pub(crate) fn load(world: &dyn SourceWorld, sources: &mut Sources, file: FileId,
     let mut loader = Loader { world, known, loaded: Loaded::default(), open: Vec::new(), done: Vec::new() };
     for (name, text) in PRELUDE {
         let id = sources.add(name, text);
-        loader.parse(sources, id, Home::Prelude);
+        let parsed = parse_again(sources, id, loader.known);
+        loader.loaded.faults.extend(parsed.errors);
+        loader.loaded.trees.push((Home::Prelude, parsed.tree));
     }
     loader.file(sources, file, Home::Own);
     loader.loaded
@@ -73,12 +78,6 @@ struct Loader<'a> {
 }
 
 impl Loader<'_> {
-    fn parse(&mut self, sources: &Sources, id: FileId, home: Home) {
-        let parsed = parse_again(sources, id, self.known);
-        self.loaded.faults.extend(parsed.errors);
-        self.loaded.trees.push((home, parsed.tree));
-    }
-
     fn file(&mut self, sources: &mut Sources, id: FileId, home: Home) {
         let name = normal(&sources.file(id).name);
         let identity = self.world.identity(&name);
@@ -225,29 +224,17 @@ impl Loader<'_> {
         name: &str,
         path: &Text,
     ) -> Result<(), Vec<Diagnostic>> {
-        let foreign = Foreign { world: self.world, format, name, place: path.span };
-        let text = match format {
-            CircuitSource::Aiger => foreign.aiger(),
-            CircuitSource::Bench => self.text(sources, name, path).and_then(|file| foreign.bench(sources.file(file))),
-            CircuitSource::Blif | CircuitSource::Pla => {
-                let file = self.text(sources, name, path)?;
-                let file = sources.file(file);
-                let is_pla = format == CircuitSource::Pla;
-                let (text, warnings) = if is_pla { foreign.pla(file)? } else { foreign.blif(file)? };
-                self.loaded.faults.extend(warnings);
-                Ok(text)
-            }
+        let file = match format {
             CircuitSource::Verilog => return self.verilog(sources, name, &[(name.to_owned(), path)]),
-        }?;
-        self.add_circuits(sources, name, text, path)?;
-        let circuits = self.loaded.trees.last().into_iter().flat_map(|(_, tree)| &tree.declarations);
-        let circuits = circuits.filter_map(|declaration| match &declaration.kind {
-            DeclarationKind::Circuit(circuit) => Some(circuit.name.text.clone()),
-            _ => None,
-        });
-        let origin = |circuit| ForeignCircuit { file: name.to_owned(), circuit, origin: ProofOrigin::File };
-        self.loaded.foreign.extend(circuits.map(origin));
-        Ok(())
+            CircuitSource::Aiger => None,
+            _ => Some(self.text(sources, name, path)?),
+        };
+        let foreign = Foreign { world: self.world, format, name, place: path.span };
+        let (design, warnings) = foreign.design(file.map(|file| sources.file(file)))?;
+        self.loaded.faults.extend(warnings);
+        let circuit = design.netlist.name.clone();
+        self.loaded.foreign.push(ForeignCircuit { file: name.to_owned(), circuit, origin: ProofOrigin::File });
+        self.add_circuits(sources, name, &[design], path)
     }
 
     fn verilog_of(&self, folder: &str) -> Vec<String> {
@@ -262,22 +249,24 @@ impl Loader<'_> {
         let path = files[0].1;
         let files: Vec<_> = ids.iter().map(|&id| sources.file(id)).collect();
         let foreign = Foreign { world: self.world, format: CircuitSource::Verilog, name, place: path.span };
-        let ForeignDesign { text, warnings, circuits } = foreign.verilog(&files)?;
+        let ForeignDesign { designs, warnings, circuits } = foreign.verilog(&files)?;
         self.loaded.faults.extend(warnings);
         self.loaded.foreign.extend(circuits);
-        self.add_circuits(sources, name, text, path)
+        self.add_circuits(sources, name, &designs, path)
     }
 
     fn add_circuits(
         &mut self,
         sources: &mut Sources,
         name: &str,
-        text: String,
+        designs: &[Design],
         path: &Text,
     ) -> Result<(), Vec<Diagnostic>> {
+        let (file, mut text) = (sources.next(), String::new());
+        let circuits: Vec<Circuit> = designs.iter().map(|design| circuit(design, file, &mut text)).collect();
         permit(sources, &text, path.span)?;
-        let file = sources.add(format!("{name} (as circuits)"), text);
-        self.parse(sources, file, Home::Foreign);
+        sources.add(format!("{name} (its names)"), text);
+        self.loaded.circuits.extend(circuits);
         Ok(())
     }
 }

@@ -13,8 +13,6 @@ use nbc_base::source::Span;
 pub(crate) enum Home {
     /// Files may redeclare its names.
     Prelude,
-    /// A circuit file of another tool, whose circuits call only those of the prelude.
-    Foreign,
     Used,
     Own,
 }
@@ -55,7 +53,7 @@ impl<T: Copy> NameTable<T> {
     }
 
     fn entry(&self, name: &str, home: Home) -> Option<Entry<T>> {
-        let file = self.files.get(name).filter(|_| !matches!(home, Home::Prelude | Home::Foreign));
+        let file = self.files.get(name).filter(|_| home != Home::Prelude);
         file.or_else(|| self.prelude.get(name)).copied()
     }
 

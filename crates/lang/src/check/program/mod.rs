@@ -6,7 +6,7 @@ mod runs;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::check::analysis::Analysis;
-use crate::check::circuit::{Header, Headers, circuit};
+use crate::check::circuit::{CheckedCircuit, Header, Headers, circuit};
 use crate::check::constant;
 use crate::check::declarations::Declarations;
 use crate::check::derived::{CheckState, order};
@@ -29,8 +29,8 @@ use crate::syntax::tree::{self, DeclarationKind, NameSyntax, Number, RecordKeywo
 use nbc_base::budget::WorkBudget;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{
-    CircuitId, Column, Evolution, ImageSize, Instance, LibrarySource, NamedFile, NamedWorld, Origin, Pattern, Program,
-    SearchObjective, Stimulation,
+    Circuit, CircuitId, Column, Evolution, ImageSize, Instance, LibrarySource, NamedFile, NamedWorld, Origin, Pattern,
+    Program, SearchObjective, Stimulation,
 };
 use nbc_base::source::{CancelFlag, FileId, SourceWorld, Sources, Span};
 use nbc_circuit::elaborate::KeptModules;
@@ -87,6 +87,8 @@ struct Assembly<'a> {
     circuits: CircuitTable,
     /// By the places of their paths.
     rows: &'a BTreeMap<Span, FileId>,
+    /// Circuits of other tools' files.
+    read: &'a [Circuit],
     inner: Vec<NameUse>,
 }
 
@@ -109,11 +111,35 @@ impl CircuitTable {
     }
 }
 
+#[derive(Clone, Copy)]
+enum DeclaredCircuit<'a> {
+    /// With the place of the declaration.
+    Text(&'a tree::CircuitSyntax, Span),
+    Netlist(&'a Circuit),
+}
+
+impl DeclaredCircuit<'_> {
+    fn name(self) -> NameSyntax {
+        match self {
+            Self::Text(source, _) => source.name.clone(),
+            Self::Netlist(read) => NameSyntax { text: read.name.clone(), span: read.span },
+        }
+    }
+
+    fn header(self) -> Header {
+        match self {
+            Self::Text(source, _) => Header::of(source),
+            Self::Netlist(read) => Header::read(read),
+        }
+    }
+}
+
 impl<'a> Assembly<'a> {
     fn new(loaded: &'a Loaded, sources: &'a Sources) -> Self {
         Self {
             declarations: Declarations::new(&loaded.trees, sources),
             rows: &loaded.rows,
+            read: &loaded.circuits,
             names: Names::new(),
             program: Program::default(),
             faults: Vec::new(),
@@ -294,35 +320,44 @@ impl<'a> Assembly<'a> {
 
     /// Their widths are checked when they are built. Returns whether each is known from before.
     fn circuits(&mut self, (base, files): Known<'_>) -> Vec<bool> {
-        let mut sources = Vec::new();
-        for (home, declaration) in self.declarations.all() {
-            if let DeclarationKind::Circuit(source) = &declaration.kind {
-                self.faults.extend(self.names.circuits.declare(&source.name, sources.len(), home).err());
-                self.circuits.headers.circuits.push(Header::of(source));
-                sources.push((declaration.span, source));
-                self.circuits.homes.push(home);
-            }
+        let written = self.declarations.all().filter_map(|(home, declaration)| match &declaration.kind {
+            DeclarationKind::Circuit(source) => Some((home, DeclaredCircuit::Text(source, declaration.span))),
+            _ => None,
+        });
+        let mut sources: Vec<_> = written.collect();
+        let first = sources.partition_point(|(home, _)| *home == Home::Prelude);
+        sources.splice(first..first, self.read.iter().map(|read| (Home::Used, DeclaredCircuit::Netlist(read))));
+        for (place, (home, source)) in sources.iter().enumerate() {
+            self.faults.extend(self.names.circuits.declare(&source.name(), place, *home).err());
+            self.circuits.headers.circuits.push(source.header());
+            self.circuits.homes.push(*home);
         }
         let prelude = |name| self.names.circuits.find(name, Home::Prelude).map(|at| CircuitId(at as u32));
         (self.program.selector, self.program.stored) = (prelude("select"), prelude("stored"));
         let (mut calls, mut is_same) = (Vec::new(), Vec::new());
         files.begin(&self.circuits.homes, &self.circuits.headers.circuits, self.names.of_bodies());
         let (mut of_prelude, mut of_files) = (std::mem::take(base), std::mem::take(&mut files.circuits));
-        for (&(span, source), &home) in sources.iter().zip(&self.circuits.homes) {
+        for (home, source) in sources {
             let (before, now) = match home {
                 Home::Prelude => (&mut of_prelude, &mut *base),
                 _ => (&mut of_files, &mut files.circuits),
             };
-            let text = self.declarations.sources.text(span);
-            let known = before.remove_entry(text).filter(|(_, known)| known.home == home);
+            let (known, text) = match source {
+                DeclaredCircuit::Text(_, span) => {
+                    let text = self.declarations.sources.text(span);
+                    (before.remove_entry(text).filter(|(_, known)| known.home == home), text)
+                }
+                DeclaredCircuit::Netlist(_) => (None, ""),
+            };
             is_same.push(known.is_some());
-            let checked = match known {
-                Some((text, known)) => {
+            let checked = match (source, known) {
+                (DeclaredCircuit::Netlist(read), _) => CheckedCircuit::of(read.clone()),
+                (DeclaredCircuit::Text(_, span), Some((text, known))) => {
                     let checked = known.at(span, &self.names, self.declarations.sources);
                     now.insert(text, known);
                     checked
                 }
-                None => {
+                (DeclaredCircuit::Text(source, span), None) => {
                     let (declared, counts) = (Vocabulary::of(&self.names, &self.program), self.names.counts());
                     let checked = circuit(source, home, declared, &self.circuits.headers, None);
                     let known = KnownCircuit::of(home, span, &checked, &self.names, counts);
@@ -330,12 +365,12 @@ impl<'a> Assembly<'a> {
                     checked
                 }
             };
-            let is_whole = !self.declarations.is_broken(source.name.span);
+            let is_whole = !self.declarations.is_broken(checked.circuit.span);
             self.circuits.sound.push(is_whole && !checked.diagnostics.iter().any(Diagnostic::is_error));
             self.faults.extend(checked.diagnostics);
             self.inner.extend(checked.uses);
             calls.push(checked.calls);
-            if source.is_environment {
+            if matches!(source, DeclaredCircuit::Text(source, _) if source.is_environment) {
                 self.program.environments.push(CircuitId(self.program.circuits.len() as u32));
             }
             self.program.circuits.push(checked.circuit);
