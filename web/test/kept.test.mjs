@@ -3,14 +3,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { FIREFOX, firefox } from "./bidi.mjs";
 import { typeProgram, visit, walking } from "./browser.mjs";
 import { served } from "./opened.mjs";
 import { LATCH, SITE } from "./program.mjs";
 
 const gate = word => `circuit gate(a, b) -> (q) {\n    q = a ${word} b\n}\n`;
 const here = served({ "gate.nb": gate("and"), "latch.nb": LATCH }, "gate.nb");
-const noFox = FIREFOX === undefined && "no Firefox on this machine";
 const EXAMPLE = "majority.nb";
 
 const shows = (page, name) => page.waitForFunction(want => document.querySelector(".file").textContent === want, name);
@@ -212,16 +210,4 @@ test("a program from a disk is opened, and not inserted into the present one", a
   ]);
   await page.getByText(SITE === undefined ? "Put other files into the folder" : "2 files imported.").waitFor();
   await page.leave();
-});
-
-test("in Firefox an edited example has its dot after a reload", { skip: noFox }, async () => {
-  const fox = await firefox(at(EXAMPLE));
-  const isUnsaved = () => document.querySelector(".file")?.dataset.unsaved === "true";
-  await fox.until(name => document.querySelector(".file")?.textContent === name, EXAMPLE);
-  await fox.click(".editor");
-  await fox.keys("//");
-  await fox.until(isUnsaved);
-  await fox.reload();
-  await fox.until(isUnsaved);
-  await fox.leave();
 });

@@ -41,8 +41,8 @@ test("nothing moves on a phone when the first switch is flipped", async () => {
   await walking(page);
   const tops = () =>
     page.evaluate(() =>
-      [".ports", ".controls", ".stage", ".diagrams"].map(
-        one => document.querySelector(one).getBoundingClientRect().top,
+      [".ports", ".controls", ".stage", ".diagrams"].map(one =>
+        Math.round(document.querySelector(one).getBoundingClientRect().top),
       ),
     );
   const before = await tops();

@@ -3,8 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { FIREFOX, firefox } from "./bidi.mjs";
-import { visit, walking } from "./browser.mjs";
+import { onlyChromium, visit, walking } from "./browser.mjs";
 import { served } from "./opened.mjs";
 import { LATCH } from "./program.mjs";
 
@@ -131,7 +130,7 @@ test("an evolution stops at once", async t => {
   await page.leave();
 });
 
-test("a page that is paused does nothing", async () => {
+test("a page that is paused does nothing", { skip: onlyChromium("its time of CPU") }, async () => {
   const page = await visit(here.program.url);
   await walking(page);
   await page.locator(".controls [data-do=play]").click();
@@ -145,21 +144,4 @@ test("a page that is paused does nothing", async () => {
   const spent = (await used()) - before;
   assert.ok(spent < 0.1, `${spent} s in 5 s`);
   await page.leave();
-});
-
-const noFox = FIREFOX === undefined && "no Firefox on this machine";
-
-test("in Firefox Stop ends the compilation of a large circuit", { skip: noFox }, async () => {
-  const fox = await firefox(at("hard.nb"));
-  await fox.until(wanted => document.querySelector(wanted) !== null, COMPILING);
-  const took = await fox.run(async wanted => {
-    const begun = performance.now();
-    document.querySelector(".swarm .status button").click();
-    while (document.querySelector(wanted) !== null) {
-      await new Promise(done => setTimeout(done, 5));
-    }
-    return performance.now() - begun;
-  }, COMPILING);
-  assert.ok(took < 300, `${took} ms`);
-  await fox.leave();
 });

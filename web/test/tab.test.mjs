@@ -1,14 +1,13 @@
 // The page that needs no program, from a plain server of files and as a file of its own. NBC_SITE names its folder.
 
 import assert from "node:assert/strict";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 
-import { FIREFOX, firefox } from "./bidi.mjs";
-import { closeBrowser, cyclesLater, lampsShow, setInput, typeProgram, visit, walking } from "./browser.mjs";
+import { closeBrowser, cyclesLater, lampsShow, setInput, taken, typeProgram, visit, walking } from "./browser.mjs";
 import { serveFiles } from "./files.mjs";
 import { SITE } from "./program.mjs";
 
@@ -35,29 +34,6 @@ async function remembers(page) {
   await cyclesLater(page, 6);
   await lampsShow(page, { q: 1, nq: 0 });
 }
-
-/** Whether `e` is on at first. */
-async function remembersInFirefox(page, isOn) {
-  const shows = value =>
-    page.until(wanted => document.querySelector('[data-lamp="q"]')?.dataset.value === wanted, value);
-  await page.until(() => document.querySelector('button[data-input="d"]') !== null);
-  await page.click('button[data-input="d"]');
-  if (!isOn) {
-    await page.click('button[data-input="e"]');
-  }
-  await shows("1");
-  await page.click('button[data-input="e"]');
-  await page.click('button[data-input="d"]');
-  await shows("1");
-}
-
-const noFox = skip || (FIREFOX === undefined && "no Firefox on this machine");
-
-test("the latch remembers in Firefox", { skip: noFox }, async () => {
-  const fox = await firefox(site.address);
-  await remembersInFirefox(fox, true);
-  await fox.leave();
-});
 
 test("a stranger has a live latch, in a folder of any server of files", { skip }, async t => {
   const page = await visit(site.address);
@@ -130,11 +106,8 @@ test("the files of the browser go into an archive and come back from it", { skip
   await saved(page, "main.nb");
   await saved(page, "größe/逻辑.nb");
   await page.locator('[data-do="open"]').click();
-  const coming = page.waitForEvent("download");
-  await page.locator('[data-do="export"]').click();
-  const download = await coming;
-  assert.match(download.suggestedFilename(), /^nbc-files-\d{8}-\d{6}\.zip$/);
-  const archive = readFileSync(await download.path());
+  const { name, bytes: archive } = await taken(page, () => page.locator('[data-do="export"]').click());
+  assert.match(name, /^nbc-files-\d{8}-\d{6}\.zip$/);
   await page.leave();
 
   const other = await visit(site.address);
@@ -211,29 +184,22 @@ test("a program that fails is started again with the text of the page", { skip }
   await page.leave();
 });
 
-test("a live export works from a disk in Chromium and in Firefox", { skip }, async t => {
+test("a live export works from a disk", { skip }, async t => {
   const page = await visit(site.address);
   await walking(page);
   await page.locator(".take summary").click();
-  const coming = page.waitForEvent("download");
-  await page.locator('[data-take="live"]').click();
+  const { bytes } = await taken(page, () => page.locator('[data-take="live"]').click());
   const folder = mkdtempSync(path.join(tmpdir(), "nbc-tab-"));
   const file = path.join(folder, "latch.html");
-  await (await coming).saveAs(file);
+  writeFileSync(file, bytes);
   await page.leave();
-  const size = readFileSync(file).length;
-  t.diagnostic(`${size} bytes`);
-  assert.ok(size < 4_000_000, `${size} bytes`);
+  t.diagnostic(`${bytes.length} bytes`);
+  assert.ok(bytes.length < 4_000_000, `${bytes.length} bytes`);
   const address = pathToFileURL(file).href;
   const alone = await visit(address);
   await remembers(alone);
   await typeProgram(alone, "circuit other(a, b) -> (q) {\n    q = a xor b\n}\n");
   await alone.waitForFunction(() => document.querySelector(".crumbs").textContent.includes("other"));
   await alone.leave();
-  if (FIREFOX !== undefined) {
-    const fox = await firefox(address);
-    await remembersInFirefox(fox, false);
-    await fox.leave();
-  }
   rmSync(folder, { recursive: true });
 });

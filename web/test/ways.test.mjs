@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { visit, walking } from "./browser.mjs";
+import { onlyChromium, visit, walking } from "./browser.mjs";
 import { compiled, done } from "./lessons.mjs";
 import { served } from "./opened.mjs";
 import { LATCH, SITE } from "./program.mjs";
@@ -112,7 +112,9 @@ async function controls(page, selector) {
     .map(one => `${one.role.value}: ${one.name?.value ?? ""}`);
 }
 
-test("every control of the lessons has a role and a name", async () => {
+const heard = { skip: onlyChromium("its tree for screen readers") };
+
+test("every control of the lessons has a role and a name", heard, async () => {
   const page = await visit(here.program.url);
   await walking(page);
   await page.locator("#tab-learn").click();

@@ -1,5 +1,5 @@
-// The texts of a schematic, which keep a size that can be read at any scale. What has no room is left out or cut: far
-// away a box has no text, or only its name, nearer its gate and its net, and near its robot, too.
+// The texts of a schematic, which keep a size that can be read at any scale, and whole words. A gate says what it
+// computes, in several lines if need be, and its robot is shown where there is room for both.
 
 import type { Box } from "./viewport";
 
@@ -10,13 +10,12 @@ export type Measure = (text: string, size: number, bold: boolean) => number;
 export type Level = "blocks" | "gates" | "robots";
 
 export const LEAST = 11;
-/** The smallest scales at which there is room for a gate's name, for a robot, for two lines above it, and for its name. */
+/** The smallest scales at which there is room for a gate's name, for a robot, and for its name. */
 const GATES = 0.28;
 const ROBOTS = 0.46;
-const TWO_LINES = 0.6;
 const ROBOT_NAMES = 0.8;
-/** Letters that are left of a text that is cut. */
-const FEWEST = 3;
+/** The height of a robot, in units of the drawing. */
+const ROBOT = 52;
 /** Pixels from line to line, for the smallest letters, and beside a text in its box. */
 const LINE = 13;
 const BESIDE = 3;
@@ -25,31 +24,51 @@ export function levelOf(scale: number): Level {
   return scale < GATES ? "blocks" : scale < ROBOTS ? "gates" : "robots";
 }
 
-/** As much of a text as there is room for, and none if that says nothing; the end of a net's path tells most. */
-export function fitText(text: string, room: number, width: (text: string) => number, keepsEnd = false): string {
-  if (width(text) <= room) {
-    return text;
-  }
-  for (let letters = text.length - 1; letters >= FEWEST; letters--) {
-    const cut = keepsEnd ? `…${text.slice(-letters)}` : `${text.slice(0, letters)}…`;
-    if (width(cut) <= room) {
-      return cut;
-    }
-  }
-  return "";
+/** A text, or its last words if there is no room for more; none if there is room for no whole word. */
+export function fitText(text: string, room: number, width: (text: string) => number): string {
+  const ends = [...text.matchAll(/(?<=[/_.])\w|\[/g)].map(({ index }) => `…${text.slice(index)}`);
+  return [text, ...ends].find(wanted => width(wanted) <= room) ?? "";
 }
 
-/** As much of a call such as `xor(and(a, b), c)` as there is room for, without what is inside of parentheses first. */
+/** A call such as `q = xor(and(a, b), c)`, and shorter ones, without what is inside of parentheses first. */
+function shorterCalls(text: string): string[] {
+  const inner = text.replace(/(?<=\(.*)\((?:[^()]|\([^()]*\))*\)/g, "(…)");
+  return [text, inner, text.replace(/\(.*$/, "(…)")];
+}
+
+/** As much of a call as there is room for. */
 export function fitCall(text: string, room: number, width: (text: string) => number): string {
-  const shorter = [text, text.replace(/(?<=\(.*)\((?:[^()]|\([^()]*\))*\)/g, "(…)"), text.replace(/\(.*$/, "(…)")];
-  return shorter.find(wanted => width(wanted) <= room) ?? fitText(text, room, width, true);
+  return shorterCalls(text).find(wanted => width(wanted) <= room) ?? fitText(text, room, width);
+}
+
+/** The lines of a call, broken between its arguments or else after parentheses; null if there are more than `most`. */
+export function wrapCall(text: string, room: number, most: number, width: (text: string) => number): string[] | null {
+  const fits = (line: string): boolean => width(line.trimEnd()) <= room;
+  for (const breaks of [/(?<=, )/, /(?<=[ (])(?!…)/]) {
+    const lines: string[] = [];
+    for (const word of text.split(breaks)) {
+      const longer = (lines.at(-1) ?? "") + word;
+      lines.splice(lines.length > 0 && fits(longer) ? -1 : lines.length, 1, fits(longer) ? longer : word);
+    }
+    if (lines.length <= most && lines.every(fits)) {
+      return lines;
+    }
+  }
+  return null;
+}
+
+/** The texts of a box that the drawing may have cut: what a gate computes and its robot, or a part and what it is. */
+function wholeTexts(kind: Kind, part: SVGElement | null): string[] {
+  const title = part?.querySelector(":scope > title")?.textContent ?? "";
+  if (kind === "part") {
+    return title.split(/: (?=[^:]*$)|, (?=\d+ robots?$)/);
+  }
+  return kind === "cell" ? [part?.dataset["call"] ?? title] : [];
 }
 
 interface Line {
   element: SVGTextElement;
   text: string;
-  /** What stands there where the text has no room. */
-  short: string;
   /** In units of the drawing. */
   size: number;
   bold: boolean;
@@ -116,12 +135,12 @@ export class Labels {
       return;
     }
     const number = (name: string): number => Number(frame.getAttribute(name));
+    const whole = wholeTexts(kind, part);
     const lines = texts
       .filter(text => !text.classList.contains("thread"))
       .map((text, i) => ({
         element: text,
-        text: (i === 0 ? part?.dataset["label"] : undefined) ?? text.textContent ?? "",
-        short: text.textContent ?? "",
+        text: whole[i] ?? text.textContent ?? "",
         size: Number(text.getAttribute("font-size")),
         bold: text.getAttribute("font-weight") === "bold",
       }));
@@ -141,54 +160,48 @@ export class Labels {
     return room && box.height * scale >= LEAST + 1;
   }
 
-  #arrangeCell(label: Labelled, scale: number): void {
-    const { box, body, lines, thread } = label;
-    const [gate, net, robot] = lines;
+  #arrangeCell({ box, body, lines: [gate, net, robot], thread }: Labelled, scale: number): void {
+    if (gate === undefined) {
+      return;
+    }
+    show(net?.element ?? null, false);
+    const [size, line] = [Math.max(LEAST, 11 * scale), Math.max(LINE, 15 * scale)];
+    const room = box.width * scale - 2 * BESIDE - (thread === null ? 0 : 14);
+    const high = box.height * scale - 2;
+    // The pixels below a robot, with and without its name; without a robot, the call has all of the box.
+    const below = scale >= ROBOT_NAMES && robot !== undefined ? [Math.max(19 * scale, 15), 5] : [5];
     const level = levelOf(scale);
-    const isNear = level === "robots";
-    show(body?.element ?? null, isNear);
-    const named = robot !== undefined && isNear && scale >= ROBOT_NAMES;
-    if (named) {
-      const y = box.y + box.height - 6 / Math.max(scale, 1);
-      this.#place(robot, box.x + box.width / 2, y, "middle", box.width * scale, scale);
-    } else {
-      hide(robot);
+    const places = level === "blocks" ? [] : body === null || level === "gates" ? [null] : [...below, null];
+    const measured = (text: string): number => this.measure(text, size, false);
+    const ways = [...shorterCalls(gate.text), gate.text.replace(/ = .*|\(.*/, "")].flatMap(text =>
+      places.map(under => {
+        const most = (under === null ? high : high - ROBOT * scale - under) / line;
+        return { under, call: wrapCall(text, room, Math.floor(most), measured) };
+      }),
+    );
+    const { under, call } = ways.find(way => way.call !== null) ?? { under: null, call: null };
+    show(body?.element ?? null, under !== null);
+    if (body !== null && under !== null) {
+      body.element.setAttribute("transform", `translate(${body.x} ${body.y + 19 - under / scale}) scale(1)`);
     }
-    const texts = [gate, net].filter(line => line !== undefined && line.text !== "") as Line[];
-    if (level === "blocks") {
-      [gate, net, ...(thread === null ? [] : [thread])].forEach(hide);
-    } else if (isNear) {
-      this.#arrangeHead(label, texts, scale);
-    } else {
-      this.#arrangeLines(label, texts, scale, "middle");
+    show(robot?.element ?? null, false);
+    if (robot !== undefined && under !== null && under > 5) {
+      this.#place(robot, box.x + box.width / 2, box.y + box.height - 6 / Math.max(scale, 1), "middle", room, scale);
     }
-    if (thread !== null && level !== "blocks") {
+    show(gate.element, call !== null);
+    if (call !== null) {
+      const isAlone = under === null;
+      const first = isAlone ? box.y + (box.height - (call.length * line) / scale) / 2 : box.y;
+      setSize(gate.element, size, scale);
+      gate.element.setAttribute("font-weight", "normal");
+      gate.element.setAttribute("text-anchor", isAlone ? "middle" : "start");
+      const x = isAlone ? box.x + box.width / 2 : box.x + BESIDE / scale;
+      gate.element.replaceChildren(...call.map((part, i) => span(part, x, first + ((i + 0.78) * line) / scale)));
+    }
+    if (thread !== null) {
+      show(thread, call !== null);
       setSize(thread, Math.max(LEAST, 13 * scale), scale);
       put(thread, box.x + box.width - 4 / scale, box.y + 12 / scale, "end");
-    }
-    if (body !== null && isNear) {
-      // It stands on the name of the robot, or on the frame.
-      const below = named ? Math.max(19, 15 / scale) : 5 / scale;
-      const y = body.y + 19 - below;
-      body.element.setAttribute("transform", `translate(${body.x} ${y}) scale(1)`);
-    }
-  }
-
-  /** The gate above the robot, and its net beside it, or below it where there is room. */
-  #arrangeHead({ box, thread }: Labelled, [gate, net]: Line[], scale: number): void {
-    const [first, second] = [box.y + Math.max(13, 12 / scale), box.y + Math.max(26, 24 / scale)];
-    const room = box.width * scale - 2 * BESIDE - (thread === null ? 0 : 14);
-    if (gate !== undefined) {
-      this.#place(gate, box.x + BESIDE / scale, first, "start", room, scale);
-    }
-    if (gate !== undefined && net !== undefined) {
-      const rest = room - this.#width(gate, Math.max(LEAST, gate.size * scale)) - 2 * BESIDE;
-      if (scale >= TWO_LINES && this.#width(net, LEAST) > rest) {
-        this.#place(net, box.x + BESIDE / scale, second, "start", box.width * scale - 2 * BESIDE, scale);
-      } else {
-        const right = box.x + box.width - (thread === null ? BESIDE : BESIDE + 14) / scale;
-        this.#place(net, right, first, "end", rest, scale);
-      }
     }
   }
 
@@ -196,10 +209,10 @@ export class Labels {
   #arrangeLines({ box }: Labelled, lines: Line[], scale: number, anchor: Anchor): void {
     const line = Math.max(LINE, 15 * scale) / scale;
     const room = box.width * scale - 2 * BESIDE;
-    // Only the name may be cut.
+    // Only the name may be shortened.
     const whole = lines.filter((text, i) => i === 0 || this.#width(text, Math.max(LEAST, text.size * scale)) <= room);
     const shown = whole.slice(0, Math.floor((box.height * scale - 4) / LINE));
-    lines.filter(text => !shown.includes(text)).forEach(hide);
+    lines.filter(text => !shown.includes(text)).forEach(text => show(text.element, false));
     const top = box.y + box.height / 2 - (shown.length * line) / 2;
     shown.forEach((text, i) => {
       this.#place(text, box.x + box.width / 2, top + (i + 0.78) * line, anchor, room, scale);
@@ -224,7 +237,7 @@ export class Labels {
     const taken = ends.get(column) ?? [];
     const isFree = taken.every(other => Math.abs(middle * scale - other) >= LEAST + 1);
     if (kind === "box" || !isFree) {
-      hide(name);
+      show(name.element, false);
       return;
     }
     ends.set(column, [...taken, middle * scale]);
@@ -235,12 +248,9 @@ export class Labels {
 
   #place(line: Line, x: number, y: number, anchor: Anchor, room: number, scale: number): void {
     const size = Math.max(LEAST, line.size * scale);
-    const keepsEnd = /[/[]|^…/.test(line.text);
-    // A name that would be cut may be less bold.
-    const fits = (text: string, isBold: boolean): boolean => this.measure(text, size, isBold) <= room;
-    const wanted = fits(line.text, false) ? line.text : line.short;
-    const bold = line.bold && fits(wanted, true);
-    const text = fitText(wanted, room, text => this.measure(text, size, bold), keepsEnd);
+    // A name that would be shortened may be less bold.
+    const bold = line.bold && this.measure(line.text, size, true) <= room;
+    const text = fitText(line.text, room, part => this.measure(part, size, bold));
     line.element.setAttribute("font-weight", bold ? "bold" : "normal");
     show(line.element, text !== "");
     if (text !== "") {
@@ -264,12 +274,16 @@ function put(text: SVGTextElement, x: number, y: number, anchor: Anchor): void {
   show(text, true);
 }
 
-function show(part: SVGElement | null, shown: boolean): void {
-  part?.setAttribute("visibility", shown ? "visible" : "hidden");
+function span(text: string, x: number, y: number): SVGTSpanElement {
+  const part = document.createElementNS("http://www.w3.org/2000/svg", "tspan");
+  part.textContent = text;
+  part.setAttribute("x", String(x));
+  part.setAttribute("y", String(y));
+  return part;
 }
 
-function hide(hidden: Line | SVGTextElement | undefined): void {
-  show(hidden === undefined ? null : "element" in hidden ? hidden.element : hidden, false);
+function show(part: SVGElement | null, shown: boolean): void {
+  part?.setAttribute("visibility", shown ? "visible" : "hidden");
 }
 
 /** Measures with a canvas, and remembers what it has measured. */

@@ -160,10 +160,7 @@ export class Schematic implements View {
         part.setAttribute("role", "button");
         part.setAttribute("aria-label", `open ${part.querySelector("title")?.textContent ?? name}`);
       } else if (kind === "cell") {
-        const robot = this.swarm.definition.value?.robots[Number(name)];
-        if (robot?.named === false) {
-          part.dataset["label"] = robot.label;
-        }
+        part.dataset["call"] = this.#callOf(part);
         // One robot for the tab key, and arrows for the others: a large circuit is passed as quickly as a small one.
         part.setAttribute("tabindex", this.#robots.length === 0 ? "0" : "-1");
         this.#robots.push(part);
@@ -172,6 +169,14 @@ export class Schematic implements View {
         part.setAttribute("aria-pressed", "false");
       }
     }
+  }
+
+  /** What a gate computes, with the names of its nets as they are within the sheet. */
+  #callOf(gate: SVGElement): string {
+    const { sheets } = this.#schematic;
+    const path = pathTo(sheets, this.#sheet).slice(1);
+    const title = gate.querySelector("title")?.textContent ?? "";
+    return path.reduce((call, at) => call.replaceAll(`${sheets[at]?.name}/`, ""), title.replace(/, robot [^,]*$/, ""));
   }
 
   #select(): void {
