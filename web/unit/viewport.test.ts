@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { fitText, levelOf, wrapCall } from "../src/live/labels";
+import { fitText, wrapCall } from "../src/live/labels";
 import { Viewport } from "../src/live/viewport";
 
 function pane(width: number, height: number): Viewport {
@@ -51,8 +51,4 @@ test("a text has whole words, and is left out when there is room for none", () =
   assert.deepEqual(wrapCall(call, 80, 4, width), ["q = xor(", "and(a, ", "b), c)"]);
   assert.equal(wrapCall(call, 80, 2, width), null);
   assert.equal(wrapCall(call, 30, 9, width), null);
-});
-
-test("blocks are seen before gates, and these before robots", () => {
-  assert.deepEqual([0.1, 0.3, 1].map(levelOf), ["blocks", "gates", "robots"]);
 });
