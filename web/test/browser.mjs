@@ -2,6 +2,7 @@
 
 import assert from "node:assert/strict";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import { cpus, loadavg } from "node:os";
 import path from "node:path";
 
 import { chromium, firefox } from "playwright-core";
@@ -48,8 +49,8 @@ export async function closeBrowser() {
   browsers.clear();
 }
 
-/** Opens an address in a context of its own, with an empty memory. */
-export async function visit(url, options = {}) {
+/** Opens an address in a context of its own, with an empty memory. `script` runs in each document first. */
+export async function visit(url, { script, ...options } = {}) {
   const given = { viewport: { width: 1440, height: 900 }, ...options };
   if (BROWSER === "firefox") {
     ["permissions", "isMobile"].forEach(name => delete given[name]);
@@ -65,8 +66,8 @@ export async function visit(url, options = {}) {
       errors.push(message.text());
     }
   });
-  if (BROWSER === "firefox") {
-    await page.addInitScript(rememberSaved);
+  for (const first of [script, BROWSER === "firefox" ? rememberSaved : undefined]) {
+    await (first && page.addInitScript(first));
   }
   await seed(page, seedOf(url));
   await page.goto(url);
@@ -148,6 +149,14 @@ export function filesOf(here) {
     /** Writes a file as another program or tab does. */
     write: async (name, text) => (isTab() ? beside(putFiles, [[name, text]]) : writeFileSync(onDisk(name), text)),
   };
+}
+
+/** Says how long something took in milliseconds, and fails if that is too long, unless others need the processors. */
+export function within(t, what, took, most) {
+  const [load] = loadavg();
+  const said = `${what} after ${Math.round(took)} ms, at a load of ${load.toFixed(1)}`;
+  t.diagnostic(said);
+  assert.ok(took < most || load > 2 * cpus().length, said);
 }
 
 /** Waits until the swarm has been compiled and its run has begun. */

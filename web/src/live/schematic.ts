@@ -24,6 +24,8 @@ const READABLE = 0.8;
 const STEP = 1.25;
 const OPENS = 0.5;
 const MARGIN = 10;
+/** The most of the pane's width for the names of ports on a side. */
+const NAMES = 0.22;
 /** A drawing that has all the height of the pane can become so much wider, which gives more room to the texts. */
 const WIDEST = 2;
 const FONT = '"DejaVu Sans", Verdana, sans-serif';
@@ -211,11 +213,7 @@ export class Schematic implements View {
   #show(): void {
     const { x, y, width, height } = this.#view.box;
     this.#svg?.setAttribute("viewBox", `${x} ${y} ${width} ${height}`);
-    this.#labels?.arrange(this.#view.scale, this.#most());
-  }
-
-  #most(): number {
-    return 0.22 * this.#view.width;
+    this.#labels?.arrange(this.#view.scale, NAMES * this.#view.width);
   }
 
   #fit(): void {
@@ -229,7 +227,9 @@ export class Schematic implements View {
   }
 
   #margins(scale: number): Margins {
-    const [left, right] = (this.#labels?.beside(scale) ?? [0, 0]).map(name => MARGIN + Math.min(name, this.#most()));
+    const [left, right] = (this.#labels?.beside(scale) ?? [0, 0]).map(
+      name => MARGIN + Math.min(name, NAMES * this.#view.width),
+    );
     return { left: left ?? MARGIN, right: right ?? MARGIN, top: MARGIN, bottom: MARGIN };
   }
 
