@@ -19,7 +19,6 @@ export function encodeBase64Url(bytes: Uint8Array): string {
   return btoa(raw).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 
-/** Fails if the letters are not whole bytes. */
 export function decodeBase64Url(text: string): Uint8Array {
   if (!/^[\w-]+$/.test(text) || text.length % 4 === 1) {
     throw new Error("not whole bytes");
