@@ -1,6 +1,6 @@
 //! The holds of rows: no longer than needed, and long enough whatever robots do before they have settled.
 
-use nbc_base::model::{Function, Library};
+use nbc_base::model::{Function, Hears, Library, PhysicsWorld};
 use nbc_circuit::{CellLibrary, Delays, Timing};
 use nbc_session::store::DiskWorld;
 use nbc_session::{Session, TestOptions};
@@ -168,4 +168,20 @@ fn slow_robots_that_drive_each_other_keep_their_start_values() {
     assert_eq!(settling.cycles_to_settle(&[false, false], 100), Some(4));
     settling.hold(&[false, false], 4);
     assert_eq!(settling.bits(), start);
+}
+
+#[test]
+fn an_exclusive_or_settles_anew_where_stimuli_change_within_its_cycle() {
+    let text = "circuit memory(a, b) -> (q) {\n    q = a xor b\n}\n";
+    let netlist = mapped(text, &CellLibrary::uniform([Function::XOR]));
+    let mut xor = robot("xor", Function::XOR);
+    xor.character.clock = 2;
+    let library = Library { robots: vec![xor] };
+    let settles = |hears: Hears| {
+        let assembly = assemble(&netlist, &library).in_world(PhysicsWorld { hears, ..PhysicsWorld::default() });
+        let mut settling = Settling::new(&assembly, 1);
+        settling.hold(&[false, false], 6);
+        settling.cycles_to_settle(&[true, true], 9)
+    };
+    assert_eq!((settles(Hears::Cycle), settles(Hears::Always)), (Some(1), Some(2)));
 }

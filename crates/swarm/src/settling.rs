@@ -8,6 +8,7 @@
 //! simulation" (1989).
 
 use crate::{Assembly, Member};
+use nbc_base::model::Function;
 use nbc_circuit::known::{TernaryBit, answer};
 
 /// A swarm during the rows of a test; its outputs are known as far as the clocks of its robots determine them.
@@ -17,6 +18,8 @@ pub struct Settling<'a> {
     /// Cycles after which the output of each robot is correct, with the window over which it is measured.
     clocks: Vec<usize>,
     start: usize,
+    /// Whether stimuli change within cycles. Only exclusive ors glitch then (docs/own-clocks.md).
+    is_late: bool,
     /// The stimuli of each robot, and the number of cycles for which they have been known and unchanged.
     sensed: Vec<(Vec<TernaryBit>, usize)>,
     bits: Vec<TernaryBit>,
@@ -31,6 +34,7 @@ impl<'a> Settling<'a> {
             members,
             clocks: members.iter().map(clock).collect(),
             start: assembly.start_cycles(),
+            is_late: assembly.world.lateness() > 0,
             sensed: members.iter().map(|member| (vec![None; member.senses.len()], 0)).collect(),
             bits: vec![None; members.len()],
             cycles: 0,
@@ -86,7 +90,9 @@ impl<'a> Settling<'a> {
         let member = &self.members[robot];
         let answer = answer(member.robot.function(), pattern);
         let clock = self.clocks[robot];
-        let keeps = self.bits[robot] == answer && member.robot.character.glitch_rate == 0.0;
+        let glitches = member.robot.character.glitch_rate > 0.0
+            || self.is_late && [Function::XOR, Function::XNOR].contains(&member.robot.function());
+        let keeps = self.bits[robot] == answer && !glitches;
         // In one cycle a robot may react to its stimuli of that cycle, whatever it sensed before.
         let is_right = held >= clock || clock == 1 || keeps;
         if self.cycles + 1 < self.start || !is_right { None } else { answer }
