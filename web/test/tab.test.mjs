@@ -17,6 +17,7 @@ import {
   typeProgram,
   visit,
   walking,
+  within,
 } from "./browser.mjs";
 import { serveFiles } from "./files.mjs";
 import { SITE } from "./program.mjs";
