@@ -25,7 +25,7 @@ after(async () => {
 });
 
 async function open(name, options) {
-  const page = await visit(`${program.url}#${name}.nb`, options);
+  const page = await visit(`${program.address}#${name}.nb`, options);
   await page.locator(".schematic svg[aria-label]").waitFor();
   await page.locator(".schematic svg text tspan").first().waitFor({ state: "attached" });
   return page;

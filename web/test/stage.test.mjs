@@ -52,7 +52,7 @@ after(async () => {
 });
 
 async function open(name, options) {
-  const page = await visit(`${program.url}#${name}.nb`, options);
+  const page = await visit(`${program.address}#${name}.nb`, options);
   await page.locator(".schematic svg[aria-label]").waitFor();
   return page;
 }
