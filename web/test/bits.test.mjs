@@ -51,11 +51,8 @@ function conversations() {
   };
 }
 
-/** What is compared: all texts but progress and what depends on the place. */
-function compared(text) {
-  const message = JSON.parse(text);
-  return "progress" in message ? null : text;
-}
+/** Whether a message is of work that goes on: when it comes, and so what it says, depends on the time. */
+const isInterim = message => "progress" in message || "found" in message;
 
 /** Talks to a program: `send` a text, and `receive` is called with each text. Files are fetched by `fetched`. */
 async function talk(requests, { send, listen, frames, fetched }) {
@@ -65,13 +62,12 @@ async function talk(requests, { send, listen, frames, fetched }) {
     id += 1;
     const answer = new Promise(done => {
       listen(text => {
-        const kept = compared(text);
-        if (kept !== null) {
-          said.push(kept);
-        }
         const message = JSON.parse(text);
-        if (message.id === id && !("progress" in message)) {
-          done(message);
+        if (!isInterim(message)) {
+          said.push(text);
+          if (message.id === id) {
+            done(message);
+          }
         }
       });
     });
@@ -226,7 +222,7 @@ async function ofChromium(requests, page) {
         const answer = new Promise(done => {
           hear = text => {
             const message = JSON.parse(text);
-            if (!("progress" in message)) {
+            if (!("progress" in message || "found" in message)) {
               said.push(text);
               if (message.id === id) {
                 done(message);

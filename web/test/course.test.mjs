@@ -49,26 +49,56 @@ test("a reload in a lesson that nobody has touched shows its program", async () 
   assert.equal(await here.page.locator('.file[data-unsaved="true"]').count(), 0);
 });
 
-test("a comment is no change of a program, and calls of standard circuits are no gates", async () => {
-  await begin("xor");
-  const xor = "circuit different(a, b) -> (q) {\n    q = parity({a, b})\n}\n";
-  const lesson = lessonsOf(SHIPPED).find(({ name }) => name === "xor");
-  await typeProgram(here.page, lesson.program.replace(/circuit [^}]*}\n/, xor));
-  await compiled(here.page);
-  await here.page.locator("#tab-tests").click();
-  await here.page.locator("[data-do=all-logic]").click();
-  await here.page.getByText("calls of standard circuits are there").waitFor();
-  assert.equal(await here.page.locator('.strip li[data-done="true"]').count(), 0);
-  assert.equal(await here.page.locator(".strip .score").count(), 0);
-  await begin("counter");
-  const counter = lessonsOf(SHIPPED).find(({ name }) => name === "counter");
-  await here.page.locator(".strip .steps li:nth-child(2) a").click();
-  await typeProgram(here.page, `${counter.program}// x\n`);
-  await compiled(here.page);
-  await here.page.locator("#tab-tests").click();
-  await here.page.locator("[data-do=all-logic]").click();
-  await here.page.getByText("it is still that of the lesson").waitFor();
-  assert.equal(await here.page.locator('.strip .steps li:nth-child(2)[data-done="true"]').count(), 0);
+const shipped = name => lessonsOf(SHIPPED).find(lesson => lesson.name === name);
+const isDone = (page, step) => page.locator(`.strip .steps li:nth-child(${step})[data-done="true"]`).count();
+
+test("a comment is no change of a program", async () => {
+  for (const [name, step] of [
+    ["counter", 2],
+    ["machine", 2],
+    ["computer", 2],
+    ["own", 1],
+  ]) {
+    const page = await visit(`${here.program.address}#lesson/${name}/${step}`);
+    await compiled(page);
+    await page.locator(".strip .missing li").first().waitFor({ state: "detached" });
+    await typeProgram(page, `${shipped(name).program}// x\n`);
+    await compiled(page);
+    await page.locator("#tab-tests").click();
+    await page.locator("[data-do=all-logic]").click();
+    await page.locator(".strip .missing").getByText("it is still that of the lesson").waitFor();
+    assert.equal(await isDone(page, step), 0, name);
+    await page.leave();
+  }
+});
+
+test("calls of standard circuits are no gates, and a refusal quotes the word", async () => {
+  const circuits = {
+    xor: {
+      "q = parity({a, b})": "calls of standard circuits are there",
+      "q = select(2'b10, a) and not b or b and not a": "`not`, `and`, `or`, calls of standard circuits are there",
+    },
+    "full-adder": {
+      "sum = parity({a, b, cin})\n    cout = select({a or b, a and b}, cin)": "calls of standard circuits are there",
+    },
+  };
+  for (const [name, texts] of Object.entries(circuits)) {
+    for (const [lines, expected] of Object.entries(texts)) {
+      const { program } = shipped(name);
+      await begin(name);
+      await typeProgram(here.page, program.replace(/(circuit [^{]*\{\n)[^}]*}/, `$1    ${lines}\n}`));
+      await compiled(here.page);
+      await here.page.locator("#tab-tests").click();
+      await here.page.locator("[data-do=all-logic]").click();
+      await here.page.getByText("✓ passes as logic").waitFor();
+      await here.page.locator(".strip .missing").getByText(expected).waitFor();
+      assert.equal(await isDone(here.page, 1), 0);
+      assert.equal(await here.page.locator(".strip .score").count(), 0);
+    }
+  }
+  // An error of the program comes first.
+  await typeProgram(here.page, "circuit full_adder(a, b, cin) -> (sum, cout) {\n    sum = c\n}\n");
+  await here.page.locator(".strip .missing li").first().getByText("first, the error in the program: ").waitFor();
   await here.page.locator("#tab-learn").click();
 });
 

@@ -7,13 +7,11 @@ import { tmpdir } from "node:os";
 import path from "node:path";
 import { after, afterEach, beforeEach, test } from "node:test";
 
-import { FIREFOX, firefox } from "./bidi.mjs";
-import { closeBrowser, typeProgram, visit, walking } from "./browser.mjs";
+import { closeBrowser, taken, typeProgram, visit, walking } from "./browser.mjs";
 import { serveFiles } from "./files.mjs";
 import { SITE } from "./program.mjs";
 
 const skip = SITE === undefined && "NBC_SITE does not name the page that `.ci/site` makes";
-const skipFox = skip || (FIREFOX === undefined && "no Firefox on this machine");
 const folders = mkdtempSync(path.join(tmpdir(), "nbc-deploy-"));
 let site;
 
@@ -111,21 +109,7 @@ test("without a network the page opens, and live pages can be made", { skip }, a
   await page.reload();
   await walking(page);
   await page.locator(".take summary").click();
-  const coming = page.waitForEvent("download");
-  await page.locator('[data-take="live"]').click();
-  assert.ok(readFileSync(await (await coming).path()).length > 2_000_000);
+  const { bytes } = await taken(page, () => page.locator('[data-take="live"]').click());
+  assert.ok(bytes.length > 2_000_000);
   await page.leave();
-});
-
-test("a returning visitor with Firefox gets the new version", { skip: skipFox }, async () => {
-  const fox = await firefox(site.address);
-  const walks = () => fox.until(() => /[1-9]/.test(document.querySelector(".cycle")?.textContent ?? ""));
-  await walks();
-  await fox.until(() => navigator.serviceWorker.controller !== null);
-  site.deploy(versions[1]);
-  await fox.go("about:blank");
-  await fox.go(site.address);
-  await walks();
-  assert.equal(await fox.run(() => document.documentElement.dataset.version), "2");
-  await fox.leave();
 });

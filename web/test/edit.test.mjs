@@ -178,7 +178,10 @@ test("the keyboard leaves the editor, and the page says how", async () => {
 
 test("other files, examples and new files can be opened", async () => {
   await here.page.locator("[data-do=open]").click();
-  await here.page.locator(".files section", { hasText: "In this folder" }).locator('[data-open="latch.nb"]').click();
+  await here.page
+    .locator(".files section", { hasText: /In this folder|My programs/ })
+    .locator('[data-open="latch.nb"]')
+    .click();
   await here.page.waitForFunction(() => document.querySelector(".file").textContent === "latch.nb");
   await walking(here.page);
   await here.page.locator("[data-do=open]").click();

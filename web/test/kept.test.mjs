@@ -3,14 +3,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { FIREFOX, firefox } from "./bidi.mjs";
 import { typeProgram, visit, walking } from "./browser.mjs";
 import { served } from "./opened.mjs";
 import { LATCH, SITE } from "./program.mjs";
 
 const gate = word => `circuit gate(a, b) -> (q) {\n    q = a ${word} b\n}\n`;
 const here = served({ "gate.nb": gate("and"), "latch.nb": LATCH }, "gate.nb");
-const noFox = FIREFOX === undefined && "no Firefox on this machine";
 const EXAMPLE = "majority.nb";
 
 const shows = (page, name) => page.waitForFunction(want => document.querySelector(".file").textContent === want, name);
@@ -51,13 +49,24 @@ test("two tabs at one address keep the changes of both", async () => {
   await first.leave();
 });
 
-test("a program that a browser cannot keep is not left without a question", async () => {
-  const page = await opens("gate.nb");
-  await page.evaluate(() => {
+/** In a document: a browser whose memory is full, or that forbids to have one. */
+const FORBIDDING = {
+  full: () => {
     Storage.prototype.setItem = () => {
       throw new DOMException("full", "QuotaExceededError");
     };
-  });
+  },
+  denied: () => {
+    const get = () => {
+      throw new DOMException("denied", "SecurityError");
+    };
+    Object.defineProperty(window, "localStorage", { get });
+  },
+};
+
+const keepsNothing = how => async () => {
+  const page = await opens("gate.nb");
+  await page.evaluate(FORBIDDING[how]);
   await typeProgram(page, gate("nor"));
   await unsaved(page);
   for (const leave of [
@@ -85,7 +94,11 @@ test("a program that a browser cannot keep is not left without a question", asyn
   await page.locator("dialog.ask [data-do=leave]").click();
   await shows(page, "latch.nb");
   await page.leave();
-});
+};
+
+for (const how of Object.keys(FORBIDDING)) {
+  test(`a program that a browser cannot keep is not left without a question: ${how}`, keepsNothing(how));
+}
 
 test("an edited example has its dot after a reload, and is in the list", async () => {
   const page = await opens(EXAMPLE);
@@ -209,19 +222,8 @@ test("a program from a disk is opened, and not inserted into the present one", a
   await drop(page, [
     ["rows.csv", "a,b,q\n0,0,1\n"],
     ["picture.png", "\u0000"],
+    ["and.v", "module both(input a, b, output q);\n  assign q = a & b;\nendmodule\n"],
   ]);
-  await page.getByText(SITE === undefined ? "Put other files into the folder" : "2 files imported.").waitFor();
+  await page.getByText(SITE === undefined ? "Put other files into the folder" : "3 files imported.").waitFor();
   await page.leave();
-});
-
-test("in Firefox an edited example has its dot after a reload", { skip: noFox }, async () => {
-  const fox = await firefox(at(EXAMPLE));
-  const isUnsaved = () => document.querySelector(".file")?.dataset.unsaved === "true";
-  await fox.until(name => document.querySelector(".file")?.textContent === name, EXAMPLE);
-  await fox.click(".editor");
-  await fox.keys("//");
-  await fox.until(isUnsaved);
-  await fox.reload();
-  await fox.until(isUnsaved);
-  await fox.leave();
 });

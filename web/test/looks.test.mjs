@@ -36,13 +36,28 @@ test("a phone shows everything in its width", async () => {
   await page.leave();
 });
 
+test("a card of a robot has all that it says in itself", async () => {
+  const page = await visit(program.url, { viewport: { width: 1366, height: 768 } });
+  await page.locator("#tab-robots").click();
+  await page.locator(".robot.card").first().waitFor();
+  const outside = await page.locator(".robot.card").evaluateAll(cards =>
+    cards.flatMap(card => {
+      const { right, bottom } = card.getBoundingClientRect();
+      const boxes = [...card.querySelectorAll("*")].map(part => [part.outerHTML, part.getBoundingClientRect()]);
+      return boxes.filter(([, box]) => box.right > right || box.bottom > bottom).map(([text]) => text.slice(0, 80));
+    }),
+  );
+  assert.deepEqual(outside, []);
+  await page.leave();
+});
+
 test("nothing moves on a phone when the first switch is flipped", async () => {
   const page = await visit(program.url, { viewport: { width: 390, height: 844 } });
   await walking(page);
   const tops = () =>
     page.evaluate(() =>
-      [".ports", ".controls", ".stage", ".diagrams"].map(
-        one => document.querySelector(one).getBoundingClientRect().top,
+      [".ports", ".controls", ".stage", ".diagrams"].map(one =>
+        Math.round(document.querySelector(one).getBoundingClientRect().top),
       ),
     );
   const before = await tops();

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 
-import { closeBrowser, cyclesLater, visit, walking } from "./browser.mjs";
+import { closeBrowser, cyclesLater, typeNumber, visit, walking } from "./browser.mjs";
 import { folderWith, play } from "./program.mjs";
 
 // A chain of full adders of two-input gates.
@@ -125,9 +125,9 @@ test("all robots are seen at once, and one of them can be followed", async () =>
 });
 
 test("a number is added", async () => {
-  await page.locator('input[data-input="a"]').fill("1234567");
+  await typeNumber(page.locator('input[data-input="a"]'), 1234567);
   await page.locator('input[data-input="a"]').press("Enter");
-  await page.locator('input[data-input="b"]').fill("7654321");
+  await typeNumber(page.locator('input[data-input="b"]'), 7654321);
   await page.locator('input[data-input="b"]').press("Enter");
   await page.locator(".speed").selectOption("max");
   await page.waitForFunction(() => document.querySelector('[data-output="sum"]').textContent === "8888888");

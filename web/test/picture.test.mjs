@@ -47,3 +47,11 @@ test("arrows choose a pixel, and the space bar changes it", async () => {
   }
   await page.locator('[data-pixel="pixels[40]"][aria-checked="true"]').waitFor();
 });
+
+test("on a phone the image is within the page", async () => {
+  const { page } = here;
+  await page.setViewportSize({ width: 360, height: 740 });
+  const right = await page.locator(".drawn").evaluate(image => image.getBoundingClientRect().right);
+  assert.ok(right <= 360, `it ends at ${right}`);
+  assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 360);
+});

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { filesOf } from "./browser.mjs";
+import { filesOf, typeNumber } from "./browser.mjs";
 import { opened } from "./opened.mjs";
 import { LATCH } from "./program.mjs";
 
@@ -168,7 +168,7 @@ test("a robot of the library walks on its card and opens in the designer", async
 });
 
 test("a search from there opens niches, and their robots can be taken", async () => {
-  await here.page.locator(".evolution input").fill("30");
+  await typeNumber(here.page.locator(".evolution input"), 30);
   await here.page.locator("[data-do=evolve]").click();
   await here.page.locator(".niche:not(:disabled)").nth(2).waitFor();
   // Others open meanwhile, so it is found again by its place.

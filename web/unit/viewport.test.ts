@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { fitText, levelOf } from "../src/live/labels";
+import { fitText, wrapCall } from "../src/live/labels";
 import { Viewport } from "../src/live/viewport";
 
 function pane(width: number, height: number): Viewport {
@@ -39,14 +39,16 @@ test("what is zoomed at stays where it is", () => {
   assert.equal(view.scale, 0.25, "and a smallest one, half of the whole");
 });
 
-test("a text is cut where it says least, and left out when nothing is left of it", () => {
+test("a text has whole words, and is left out when there is room for none", () => {
   const width = (text: string): number => 10 * text.length;
   assert.equal(fitText("register", 80, width), "register");
-  assert.equal(fitText("register", 60, width), "regis…");
-  assert.equal(fitText("pc/a/q", 50, width, true), "…/a/q");
-  assert.equal(fitText("register", 30, width), "");
-});
-
-test("blocks are seen before gates, and these before robots", () => {
-  assert.deepEqual([0.1, 0.3, 1].map(levelOf), ["blocks", "gates", "robots"]);
+  assert.equal(fitText("register", 70, width), "");
+  assert.equal(fitText("pc/a/next_q", 70, width), "…next_q");
+  assert.equal(fitText("pc/a[12]", 50, width), "…[12]");
+  const call = "q = xor(and(a, b), c)";
+  assert.deepEqual(wrapCall(call, 210, 1, width), [call]);
+  assert.deepEqual(wrapCall(call, 150, 2, width), ["q = xor(and(a, ", "b), c)"]);
+  assert.deepEqual(wrapCall(call, 80, 4, width), ["q = xor(", "and(a, ", "b), c)"]);
+  assert.equal(wrapCall(call, 80, 2, width), null);
+  assert.equal(wrapCall(call, 30, 9, width), null);
 });

@@ -38,7 +38,8 @@ export function drawGround(pen: Pen, lane: Lane, colors: Colors): void {
   for (let voxel = Math.ceil(camera - half); voxel <= camera + half; voxel++) {
     const x = Math.round(left + (voxel - camera + half) * scale);
     pen.fillRect(x, ground, 1, voxel % 5 === 0 ? 6 : 3);
-    if (voxel % 10 === 0 && top + height - ground >= 17) {
+    const isWhole = x - left >= 12 && left + width - x >= 12;
+    if (voxel % 10 === 0 && isWhole && top + height - ground >= 17) {
       pen.fillText(String(voxel), x, ground + 7);
     }
   }

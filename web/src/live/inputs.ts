@@ -172,6 +172,8 @@ export class InputPanel implements View {
         }
       },
     });
+    // As wide as its largest number, up to one of 64 bits.
+    field.style.width = `calc(${Math.min(20, Math.max(5, Math.ceil(0.302 * port.width) + 1))}ch + 1.6em)`;
     this.#updates.push(() => {
       const text = numberText(this.#current(port, start), port);
       if (document.activeElement !== field && field.value !== text) {

@@ -6,7 +6,7 @@ import type { SwarmRobot } from "../protocol";
 import type { View } from "./animation";
 import type { LiveSwarm } from "./swarm";
 
-const HINT = "Point at a robot or a net to see it in all views. Click a robot to follow it alone.";
+const HINT = "Point at a robot or a net to mark it in all views. Click a robot to follow it.";
 
 export class Inspector implements View {
   readonly host = element("div", { class: "facts", hidden: true });

@@ -1,58 +1,50 @@
-// The texts of a schematic, which keep a size that can be read at any scale. What has no room is left out or cut: far
-// away a box has no text, or only its name, nearer its gate and its net, and near its robot, too.
+// The texts of a schematic, which keep a size that can be read at any scale, and whole words. A gate says what it
+// computes, in several lines if need be, and its robot is shown where there is room for both.
 
 import type { Box } from "./viewport";
 
 /** The width of a text in pixels, in letters of `size` pixels. */
 export type Measure = (text: string, size: number, bold: boolean) => number;
 
-/** What one sees: parts with their names, gates too, or the robots that play them. */
-export type Level = "blocks" | "gates" | "robots";
-
 export const LEAST = 11;
-/** The smallest scales at which there is room for a gate's name, for a robot, for two lines above it, and for its name. */
-const GATES = 0.28;
+/** The smallest scale at which there is room for a robot, and its height in units of the drawing. */
 const ROBOTS = 0.46;
-const TWO_LINES = 0.6;
-const ROBOT_NAMES = 0.8;
-/** Letters that are left of a text that is cut. */
-const FEWEST = 3;
+const ROBOT = 52;
 /** Pixels from line to line, for the smallest letters, and beside a text in its box. */
 const LINE = 13;
-const BESIDE = 3;
+const BESIDE = 2;
 
-export function levelOf(scale: number): Level {
-  return scale < GATES ? "blocks" : scale < ROBOTS ? "gates" : "robots";
+/** A text, or its last words if there is no room for more; none if there is room for no whole word. */
+export function fitText(text: string, room: number, width: (text: string) => number): string {
+  const ends = [...text.matchAll(/(?<=[/_.])\w|\[/g)].map(({ index }) => `…${text.slice(index)}`);
+  return [text, ...ends].find(wanted => width(wanted) <= room) ?? "";
 }
 
-/** As much of a text as there is room for, and none if that says nothing; the end of a net's path tells most. */
-export function fitText(text: string, room: number, width: (text: string) => number, keepsEnd = false): string {
-  if (width(text) <= room) {
-    return text;
-  }
-  for (let letters = text.length - 1; letters >= FEWEST; letters--) {
-    const cut = keepsEnd ? `…${text.slice(-letters)}` : `${text.slice(0, letters)}…`;
-    if (width(cut) <= room) {
-      return cut;
+/** A call such as `q = xor(and(a, b), c)`, and shorter ones, without what is inside of parentheses first. */
+function shorterCalls(text: string): string[] {
+  const inner = text.replace(/(?<=\(.*)\((?:[^()]|\([^()]*\))*\)/g, "(…)");
+  return [text, inner, text.replace(/\(.*$/, "(…)"), text.replace(/ = .*|\(.*/, "")];
+}
+
+/** As much of a call or a name as there is room for. */
+export function fitCall(text: string, room: number, width: (text: string) => number): string {
+  return shorterCalls(text).find(wanted => width(wanted) <= room) ?? fitText(text.replace(/\(.*/, ""), room, width);
+}
+
+/** The lines of a call, broken between its arguments or else after parentheses; null if there are more than `most`. */
+export function wrapCall(text: string, room: number, most: number, width: (text: string) => number): string[] | null {
+  const fits = (line: string): boolean => width(line.trimEnd()) <= room;
+  for (const breaks of [/(?<=, )/, /(?<=[ (])(?!…)/]) {
+    const lines: string[] = [];
+    for (const word of text.split(breaks)) {
+      const longer = (lines.at(-1) ?? "") + word;
+      lines.splice(lines.length > 0 && fits(longer) ? -1 : lines.length, 1, fits(longer) ? longer : word);
+    }
+    if (lines.length <= most && lines.every(fits)) {
+      return lines;
     }
   }
-  return "";
-}
-
-/** As much of a call such as `xor(and(a, b), c)` as there is room for, without what is inside of parentheses first. */
-export function fitCall(text: string, room: number, width: (text: string) => number): string {
-  const shorter = [text, text.replace(/(?<=\(.*)\((?:[^()]|\([^()]*\))*\)/g, "(…)"), text.replace(/\(.*$/, "(…)")];
-  return shorter.find(wanted => width(wanted) <= room) ?? fitText(text, room, width, true);
-}
-
-interface Line {
-  element: SVGTextElement;
-  text: string;
-  /** What stands there where the text has no room. */
-  short: string;
-  /** In units of the drawing. */
-  size: number;
-  bold: boolean;
+  return null;
 }
 
 type Kind = "cell" | "part" | "input" | "output" | "box";
@@ -60,7 +52,9 @@ type Kind = "cell" | "part" | "input" | "output" | "box";
 interface Labelled {
   kind: Kind;
   box: Box;
-  lines: Line[];
+  /** What is drawn, and what it would say if there were room for all. */
+  text: SVGTextElement;
+  words: string;
   /** The drawing of a robot, and where it came. */
   body: { element: SVGElement; x: number; y: number } | null;
   thread: SVGTextElement | null;
@@ -76,24 +70,36 @@ export class Labels {
   ) {
     for (const part of svg.querySelectorAll<SVGElement>(":scope > [data-id]")) {
       const kind = /^(cell|part|input|output)-/.exec(part.dataset["id"] ?? "")?.[1] as Kind | undefined;
-      if (kind !== undefined) {
-        this.#add(kind, part.querySelector("rect"), [...part.querySelectorAll<SVGTextElement>(":scope > text")], part);
+      const [text, ...others] = part.querySelectorAll<SVGTextElement>(":scope > text:not(.thread)");
+      if (kind !== undefined && text !== undefined) {
+        others.forEach(other => other.remove());
+        const title = part.querySelector(":scope > title")?.textContent;
+        this.#add(kind, part.querySelector("rect"), text, part.dataset["call"] ?? title ?? "");
       }
     }
     for (const text of svg.querySelectorAll<SVGTextElement>(":scope > rect + text")) {
-      this.#add("box", text.previousElementSibling as SVGRectElement, [text], null);
+      this.#add("box", text.previousElementSibling as SVGRectElement, text, text.textContent ?? "");
+    }
+  }
+
+  /** Follows a drawing that becomes wider by a factor; robots stay in the middle of their boxes. */
+  widen(factor: number): void {
+    for (const { box, body } of this.#all) {
+      if (body !== null) {
+        body.x += (box.x + box.width / 2) * (factor - 1);
+      }
+      box.x *= factor;
+      box.width *= factor;
     }
   }
 
   /** The pixels that the names of ports need beside the drawing, left and right, at a scale. */
   beside(scale: number): [number, number] {
-    const widest = (kind: Kind): number =>
-      Math.max(
-        0,
-        ...this.#all
-          .filter(label => label.kind === kind && !this.#fits(label, scale))
-          .map(({ lines: [name] }) => (name === undefined ? 0 : this.#width(name, LEAST) + 2 * BESIDE)),
-      );
+    const outside = this.#all.filter(label => !this.#fits(label, scale));
+    const widest = (kind: Kind): number => {
+      const ports = outside.filter(label => label.kind === kind);
+      return Math.max(0, ...ports.map(({ words }) => this.measure(words, LEAST, true) + 2 * BESIDE));
+    };
     return [widest("input"), widest("output")];
   }
 
@@ -104,172 +110,127 @@ export class Labels {
       if (label.kind === "cell") {
         this.#arrangeCell(label, scale);
       } else if (label.kind === "part") {
-        this.#arrangeLines(label, label.lines, scale, "middle");
+        this.#arrangePart(label, scale);
       } else {
         this.#arrangePort(label, scale, most, ends);
       }
     }
   }
 
-  #add(kind: Kind, frame: SVGRectElement | null, texts: SVGTextElement[], part: SVGElement | null): void {
+  #add(kind: Kind, frame: SVGRectElement | null, text: SVGTextElement, words: string): void {
     if (frame === null) {
       return;
     }
-    const number = (name: string): number => Number(frame.getAttribute(name));
-    const lines = texts
-      .filter(text => !text.classList.contains("thread"))
-      .map((text, i) => ({
-        element: text,
-        text: (i === 0 ? part?.dataset["label"] : undefined) ?? text.textContent ?? "",
-        short: text.textContent ?? "",
-        size: Number(text.getAttribute("font-size")),
-        bold: text.getAttribute("font-weight") === "bold",
-      }));
-    const box = { x: number("x"), y: number("y"), width: number("width"), height: number("height") };
-    const drawn = part?.querySelector<SVGElement>(":scope > g[transform]") ?? null;
+    const [x = 0, y = 0, width = 0, height = 0] = ["x", "y", "width", "height"].map(name =>
+      Number(frame.getAttribute(name)),
+    );
+    const within = kind === "cell" ? frame.parentElement : null;
+    const drawn = within?.querySelector<SVGElement>(":scope > g[transform]") ?? null;
     const at = /translate\(([-\d.]+) ([-\d.]+)\)/.exec(drawn?.getAttribute("transform") ?? "");
     const body = drawn === null || at === null ? null : { element: drawn, x: Number(at[1]), y: Number(at[2]) };
-    this.#all.push({ kind, box, lines, body, thread: texts.find(text => text.classList.contains("thread")) ?? null });
+    const thread = within?.querySelector<SVGTextElement>(":scope > .thread") ?? null;
+    text.setAttribute("font-weight", kind === "cell" || kind === "part" ? "normal" : "bold");
+    this.#all.push({ kind, box: { x, y, width, height }, text, words, body, thread });
   }
 
-  #width({ text, bold }: Line, size: number): number {
-    return this.measure(text, size, bold);
-  }
-
-  #fits({ box, lines: [name] }: Labelled, scale: number): boolean {
-    const room = name !== undefined && this.#width(name, LEAST) <= box.width * scale - 2 * BESIDE;
+  #fits({ box, words }: Labelled, scale: number): boolean {
+    const room = this.measure(words, LEAST, true) <= box.width * scale - 2 * BESIDE;
     return room && box.height * scale >= LEAST + 1;
   }
 
-  #arrangeCell(label: Labelled, scale: number): void {
-    const { box, body, lines, thread } = label;
-    const [gate, net, robot] = lines;
-    const level = levelOf(scale);
-    const isNear = level === "robots";
-    show(body?.element ?? null, isNear);
-    const named = robot !== undefined && isNear && scale >= ROBOT_NAMES;
-    if (named) {
-      const y = box.y + box.height - 6 / Math.max(scale, 1);
-      this.#place(robot, box.x + box.width / 2, y, "middle", box.width * scale, scale);
-    } else {
-      hide(robot);
-    }
-    const texts = [gate, net].filter(line => line !== undefined && line.text !== "") as Line[];
-    if (level === "blocks") {
-      [gate, net, ...(thread === null ? [] : [thread])].forEach(hide);
-    } else if (isNear) {
-      this.#arrangeHead(label, texts, scale);
-    } else {
-      this.#arrangeLines(label, texts, scale, "middle");
-    }
-    if (thread !== null && level !== "blocks") {
-      setSize(thread, Math.max(LEAST, 13 * scale), scale);
-      put(thread, box.x + box.width - 4 / scale, box.y + 12 / scale, "end");
-    }
-    if (body !== null && isNear) {
-      // It stands on the name of the robot, or on the frame.
-      const below = named ? Math.max(19, 15 / scale) : 5 / scale;
-      const y = body.y + 19 - below;
-      body.element.setAttribute("transform", `translate(${body.x} ${y}) scale(1)`);
-    }
-  }
-
-  /** The gate above the robot, and its net beside it, or below it where there is room. */
-  #arrangeHead({ box, thread }: Labelled, [gate, net]: Line[], scale: number): void {
-    const [first, second] = [box.y + Math.max(13, 12 / scale), box.y + Math.max(26, 24 / scale)];
+  #arrangeCell({ box, text, words, body, thread }: Labelled, scale: number): void {
     const room = box.width * scale - 2 * BESIDE - (thread === null ? 0 : 14);
-    if (gate !== undefined) {
-      this.#place(gate, box.x + BESIDE / scale, first, "start", room, scale);
+    // The pixels for the robot, if it can be seen and there is room for it and the call.
+    const places = body === null || scale < ROBOTS ? [0] : [ROBOT * scale + 5, 0];
+    const width = (part: string): number => this.measure(part, sizeAt(scale), false);
+    const ways = shorterCalls(words).flatMap(call =>
+      places.map(below => {
+        const most = Math.floor((box.height * scale - 2 - below) / lineAt(scale));
+        return { below, lines: wrapCall(call, room, most, width) };
+      }),
+    );
+    const { below, lines } = ways.find(way => way.lines !== null) ?? { below: 0, lines: null };
+    show(body?.element ?? null, below > 0);
+    if (below > 0) {
+      body?.element.setAttribute("transform", `translate(${body.x} ${body.y + 19 - 5 / scale}) scale(1)`);
+      this.#write(text, lines ?? [], [box.x + BESIDE / scale, box.y], "start", scale);
+    } else {
+      this.#center(text, lines ?? [], box, scale);
     }
-    if (gate !== undefined && net !== undefined) {
-      const rest = room - this.#width(gate, Math.max(LEAST, gate.size * scale)) - 2 * BESIDE;
-      if (scale >= TWO_LINES && this.#width(net, LEAST) > rest) {
-        this.#place(net, box.x + BESIDE / scale, second, "start", box.width * scale - 2 * BESIDE, scale);
-      } else {
-        const right = box.x + box.width - (thread === null ? BESIDE : BESIDE + 14) / scale;
-        this.#place(net, right, first, "end", rest, scale);
-      }
+    if (thread !== null) {
+      const [x, y, size] = [box.x + box.width - 4 / scale, box.y + 12 / scale, Math.max(LEAST, 13 * scale) / scale];
+      Object.entries({ x, y, "font-size": size, "text-anchor": "end" }).forEach(([name, value]) =>
+        thread.setAttribute(name, String(value)),
+      );
     }
   }
 
-  /** Lines in the middle of their box, as many as there is room for. */
-  #arrangeLines({ box }: Labelled, lines: Line[], scale: number, anchor: Anchor): void {
-    const line = Math.max(LINE, 15 * scale) / scale;
-    const room = box.width * scale - 2 * BESIDE;
-    // Only the name may be cut.
-    const whole = lines.filter((text, i) => i === 0 || this.#width(text, Math.max(LEAST, text.size * scale)) <= room);
-    const shown = whole.slice(0, Math.floor((box.height * scale - 4) / LINE));
-    lines.filter(text => !shown.includes(text)).forEach(hide);
-    const top = box.y + box.height / 2 - (shown.length * line) / 2;
-    shown.forEach((text, i) => {
-      this.#place(text, box.x + box.width / 2, top + (i + 0.78) * line, anchor, room, scale);
-    });
+  /** The name of a part, what it is, and its robots: as many of them as there is room for. */
+  #arrangePart({ box, text, words }: Labelled, scale: number): void {
+    const lines = words.split(/: (?=[^:]*$)|, (?=\d+ robots?$)/);
+    const fits = (line: string): boolean => this.measure(line, sizeAt(scale), false) <= box.width * scale - 2 * BESIDE;
+    const first = lines.findIndex(line => !fits(line));
+    const most = Math.floor((box.height * scale - 4) / lineAt(scale));
+    this.#center(text, lines.slice(0, Math.min(most, first < 0 ? lines.length : first)), box, scale);
   }
 
   /** In its box, or else outside beside it, where no other name is. */
   #arrangePort(label: Labelled, scale: number, most: number, ends: Map<string, number[]>): void {
-    const { kind, box, lines } = label;
-    const [name] = lines;
-    if (name === undefined) {
-      return;
-    }
+    const { kind, box, text, words } = label;
     const middle = box.y + box.height / 2;
-    if (this.#fits(label, scale)) {
-      const size = Math.max(LEAST, name.size * scale);
-      const y = middle + (0.36 * size) / scale;
-      this.#place(name, box.x + box.width / 2, y, "middle", box.width * scale, scale);
-      return;
-    }
     const column = `${kind} ${box.x}`;
     const taken = ends.get(column) ?? [];
     const isFree = taken.every(other => Math.abs(middle * scale - other) >= LEAST + 1);
-    if (kind === "box" || !isFree) {
-      hide(name);
-      return;
+    if (this.#fits(label, scale)) {
+      this.#center(text, [words], box, scale);
+    } else if (kind === "box" || !isFree) {
+      show(text, false);
+    } else {
+      ends.set(column, [...taken, middle * scale]);
+      const name = fitText(words, most, part => this.measure(part, LEAST, true));
+      const isInput = kind === "input";
+      const x = isInput ? box.x - BESIDE / scale : box.x + box.width + BESIDE / scale;
+      this.#write(text, [name], [x, middle - lineAt(scale) / 2 / scale], isInput ? "end" : "start", scale);
     }
-    ends.set(column, [...taken, middle * scale]);
-    const [x, anchor] =
-      kind === "input" ? [box.x - BESIDE / scale, "end"] : [box.x + box.width + BESIDE / scale, "start"];
-    this.#place(name, x as number, middle + (0.36 * LEAST) / scale, anchor as Anchor, most, scale);
   }
 
-  #place(line: Line, x: number, y: number, anchor: Anchor, room: number, scale: number): void {
-    const size = Math.max(LEAST, line.size * scale);
-    const keepsEnd = /[/[]|^…/.test(line.text);
-    // A name that would be cut may be less bold.
-    const fits = (text: string, isBold: boolean): boolean => this.measure(text, size, isBold) <= room;
-    const wanted = fits(line.text, false) ? line.text : line.short;
-    const bold = line.bold && fits(wanted, true);
-    const text = fitText(wanted, room, text => this.measure(text, size, bold), keepsEnd);
-    line.element.setAttribute("font-weight", bold ? "bold" : "normal");
-    show(line.element, text !== "");
-    if (text !== "") {
-      line.element.textContent = text;
-      setSize(line.element, size, scale);
-      put(line.element, x, y, anchor);
-    }
+  #center(text: SVGTextElement, lines: string[], box: Box, scale: number): void {
+    const top = box.y + (box.height - (lines.length * lineAt(scale)) / scale) / 2;
+    this.#write(text, lines, [box.x + box.width / 2, top], "middle", scale);
+  }
+
+  #write(
+    text: SVGTextElement,
+    lines: string[],
+    [x, top]: [number, number],
+    anchor: "start" | "middle" | "end",
+    scale: number,
+  ): void {
+    show(text, lines.length > 0);
+    text.setAttribute("font-size", ((sizeAt(scale) + 0.05) / scale).toFixed(4));
+    text.setAttribute("text-anchor", anchor);
+    const spans = lines.map((line, i) => {
+      const part = document.createElementNS(text.namespaceURI, "tspan");
+      part.textContent = line;
+      part.setAttribute("x", String(x));
+      part.setAttribute("y", String(top + ((i + 0.78) * lineAt(scale)) / scale));
+      return part;
+    });
+    text.replaceChildren(...spans);
   }
 }
 
-type Anchor = "start" | "middle" | "end";
-
-function setSize(text: SVGTextElement, pixels: number, scale: number): void {
-  text.setAttribute("font-size", ((pixels + 0.05) / scale).toFixed(4));
+/** The pixels of letters, and from line to line. */
+function sizeAt(scale: number): number {
+  return Math.max(LEAST, 11 * scale);
 }
 
-function put(text: SVGTextElement, x: number, y: number, anchor: Anchor): void {
-  text.setAttribute("x", String(x));
-  text.setAttribute("y", String(y));
-  text.setAttribute("text-anchor", anchor);
-  show(text, true);
+function lineAt(scale: number): number {
+  return Math.max(LINE, 15 * scale);
 }
 
 function show(part: SVGElement | null, shown: boolean): void {
   part?.setAttribute("visibility", shown ? "visible" : "hidden");
-}
-
-function hide(hidden: Line | SVGTextElement | undefined): void {
-  show(hidden === undefined ? null : "element" in hidden ? hidden.element : hidden, false);
 }
 
 /** Measures with a canvas, and remembers what it has measured. */

@@ -6,9 +6,9 @@ import { sameSource } from "../selection";
 import type { LiveSwarm } from "./swarm";
 import type { View } from "./animation";
 import { Dragging } from "./dragging";
-import { Labels, levelOf, measuring } from "./labels";
-import { addHalo, drawingOf, leaveDrawing, pathTo, placeBodies, threadNumber } from "./schematic_parts";
-import { Viewport, type Box } from "./viewport";
+import { Labels, measuring } from "./labels";
+import { addHalo, drawingOf, leaveDrawing, pathTo, placeBodies, threadNumber, widen } from "./schematic_parts";
+import { LARGEST_WHOLE, Viewport, type Box, type Margins } from "./viewport";
 import { threadColor } from "./waves";
 
 interface Marked {
@@ -24,6 +24,10 @@ const READABLE = 0.8;
 const STEP = 1.25;
 const OPENS = 0.5;
 const MARGIN = 10;
+/** The most of the pane's width for the names of ports on a side. */
+const NAMES = 0.22;
+/** A drawing that has all the height of the pane can become so much wider, which gives more room to the texts. */
+const WIDEST = 2;
 const FONT = '"DejaVu Sans", Verdana, sans-serif';
 
 export class Schematic implements View {
@@ -48,6 +52,7 @@ export class Schematic implements View {
   #marked: Marked[] = [];
   #labels: Labels | null = null;
   #whole: Box = { x: 0, y: 0, width: 1, height: 1 };
+  #factor = 1;
   readonly #view = new Viewport();
   /** Whether the reader has zoomed or moved; else the whole is shown in a pane of any size. */
   #isOwn = false;
@@ -124,6 +129,7 @@ export class Schematic implements View {
     const { name, about } = sheets[sheet] ?? { name: "", about: "" };
     this.#svg.setAttribute("aria-label", `${name}: ${about}`);
     this.#whole = leaveDrawing(this.#svg);
+    this.#factor = 1;
     placeBodies(this.#svg, bodies);
     fill(
       this.crumbs,
@@ -160,10 +166,7 @@ export class Schematic implements View {
         part.setAttribute("role", "button");
         part.setAttribute("aria-label", `open ${part.querySelector("title")?.textContent ?? name}`);
       } else if (kind === "cell") {
-        const robot = this.swarm.definition.value?.robots[Number(name)];
-        if (robot?.named === false) {
-          part.dataset["label"] = robot.label;
-        }
+        part.dataset["call"] = this.#callOf(part);
         // One robot for the tab key, and arrows for the others: a large circuit is passed as quickly as a small one.
         part.setAttribute("tabindex", this.#robots.length === 0 ? "0" : "-1");
         this.#robots.push(part);
@@ -172,6 +175,14 @@ export class Schematic implements View {
         part.setAttribute("aria-pressed", "false");
       }
     }
+  }
+
+  /** What a gate computes, with the names of its nets as they are within the sheet. */
+  #callOf(gate: SVGElement): string {
+    const { sheets } = this.#schematic;
+    const path = pathTo(sheets, this.#sheet).slice(1);
+    const title = gate.querySelector("title")?.textContent ?? "";
+    return path.reduce((call, at) => call.replaceAll(`${sheets[at]?.name}/`, ""), title.replace(/, robot [^,]*$/, ""));
   }
 
   #select(): void {
@@ -202,12 +213,7 @@ export class Schematic implements View {
   #show(): void {
     const { x, y, width, height } = this.#view.box;
     this.#svg?.setAttribute("viewBox", `${x} ${y} ${width} ${height}`);
-    this.host.dataset["level"] = levelOf(this.#view.scale);
-    this.#labels?.arrange(this.#view.scale, this.#most());
-  }
-
-  #most(): number {
-    return 0.22 * this.#view.width;
+    this.#labels?.arrange(this.#view.scale, NAMES * this.#view.width);
   }
 
   #fit(): void {
@@ -215,17 +221,31 @@ export class Schematic implements View {
       return;
     }
     this.#isOwn = false;
-    this.#view.fit(this.#whole, scale => {
-      const [left, right] = this.#labels?.beside(scale) ?? [0, 0];
-      const most = this.#most();
-      return {
-        left: MARGIN + Math.min(left, most),
-        right: MARGIN + Math.min(right, most),
-        top: MARGIN,
-        bottom: MARGIN,
-      };
-    });
+    this.#widen();
+    this.#view.fit(this.#whole, scale => this.#margins(scale));
     this.#show();
+  }
+
+  #margins(scale: number): Margins {
+    const [left, right] = (this.#labels?.beside(scale) ?? [0, 0]).map(
+      name => MARGIN + Math.min(name, NAMES * this.#view.width),
+    );
+    return { left: left ?? MARGIN, right: right ?? MARGIN, top: MARGIN, bottom: MARGIN };
+  }
+
+  #widen(): void {
+    const { width, height } = this.#view;
+    const scale = Math.min(LARGEST_WHOLE, (height - 2 * MARGIN) / this.#whole.height);
+    const { left, right } = this.#margins(scale);
+    const wanted = (this.#factor * (width - left - right)) / (this.#whole.width * scale);
+    const more = Math.min(WIDEST, Math.max(1, wanted)) / this.#factor;
+    if (this.#svg !== null && scale > 0) {
+      widen(this.#svg, more);
+      this.#labels?.widen(more);
+      this.#factor *= more;
+      this.#whole.x *= more;
+      this.#whole.width *= more;
+    }
   }
 
   #center(part: SVGGraphicsElement, scale: number): void {

@@ -23,6 +23,21 @@ export function pathTo(sheets: SheetPage[], sheet: number): number[] {
   return outer === null ? [sheet] : [...pathTo(sheets, outer), sheet];
 }
 
+/** Makes a drawing wider by a factor, with its heights as they are. */
+export function widen(svg: SVGSVGElement, factor: number): void {
+  const scale = (parts: string, ...names: string[]): void =>
+    svg.querySelectorAll(parts).forEach(part => {
+      names.forEach(name => part.setAttribute(name, String(factor * Number(part.getAttribute(name)))));
+    });
+  scale("line", "x1", "x2");
+  scale("circle", "cx");
+  scale("rect", "x", "width");
+  for (const line of svg.querySelectorAll("polyline")) {
+    const wider = (x: string): string => String(factor * Number(x));
+    line.setAttribute("points", (line.getAttribute("points") ?? "").replace(/[-\d.]+(?=,)/g, wider));
+  }
+}
+
 export function placeBodies(svg: SVGSVGElement, bodies: string[]): void {
   const drawn = bodies.map(text => new DOMParser().parseFromString(text, "image/svg+xml").documentElement);
   for (const place of svg.querySelectorAll<SVGElement>('[data-id^="body-"]')) {

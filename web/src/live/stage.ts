@@ -15,7 +15,7 @@ import { sameSource } from "../selection";
 
 const GAP = 6;
 /** A lane's least width and height, and what its two lines of text need above the robot. */
-const [NARROW, LOW, HEAD] = [230, 112, 38];
+const [NARROW, LOW, HEAD] = [270, 112, 38];
 /** Voxels beside and above each other for which a lane has room. */
 const [WIDE, TALL] = [10, 7];
 

@@ -16,6 +16,7 @@ export interface Margins {
 }
 
 const LARGEST = 4;
+export const LARGEST_WHOLE = 1.5;
 
 export class Viewport {
   width = 0;
@@ -39,7 +40,7 @@ export class Viewport {
     for (let pass = 0; pass < 4; pass++) {
       const { left, right, top, bottom } = margins(scale);
       const [across, down] = [this.width - left - right, this.height - top - bottom];
-      scale = Math.max(0.01, Math.min(across / content.width, down / content.height, 1.5));
+      scale = Math.max(0.01, Math.min(across / content.width, down / content.height, LARGEST_WHOLE));
     }
     const { left, right, top, bottom } = margins(scale);
     const spare = [

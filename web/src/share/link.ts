@@ -61,7 +61,7 @@ export async function decodeShare(link: string): Promise<SharedProgram> {
 
 async function parsed(code: string): Promise<unknown> {
   try {
-    const json = unpack(decodeBase64Url(code) ?? new Uint8Array(), MOST_BYTES);
+    const json = unpack(decodeBase64Url(code), MOST_BYTES);
     if (json !== null) {
       return JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(json));
     }

@@ -19,9 +19,9 @@ export function encodeBase64Url(bytes: Uint8Array): string {
   return btoa(raw).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 
-export function decodeBase64Url(text: string): Uint8Array | null {
+export function decodeBase64Url(text: string): Uint8Array {
   if (!/^[\w-]+$/.test(text) || text.length % 4 === 1) {
-    return null;
+    throw new Error("not whole bytes");
   }
   return decodeBase64(text.replaceAll("-", "+").replaceAll("_", "/"));
 }

@@ -19,6 +19,7 @@ const PLACES: { [V in Verb]?: Place } = {
   step: "swarm",
   reset: "swarm",
   seek: "swarm",
+  settle: "swarm",
   view: "swarm",
   take: "swarm",
   test: "work",
