@@ -7,7 +7,7 @@ use proptest::sample::{Index, select};
 
 use crate::support::*;
 
-const INSERTED: [&str; 26] = [
+const INSERTED: [&str; 27] = [
     "",
     "",
     "a",
@@ -19,6 +19,7 @@ const INSERTED: [&str; 26] = [
     "*/",
     "#",
     ";",
+    "\n;\n",
     "{",
     "}",
     "(",

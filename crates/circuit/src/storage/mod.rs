@@ -1,6 +1,6 @@
-//! Storage: the latches and flip-flops of a netlist, and the net that opens and closes each (docs/timing.md, "Static
-//! timing"). Those of registers are known from lowering; loops that were written as cells are recognized by what they
-//! do.
+//! Storage: the latches and flip-flops of a netlist, and the net that opens and closes each
+//! (docs/timing.md, "Static timing"). Those of registers are known from lowering; loops that were written as cells are
+//! recognized by what they do.
 
 mod cone;
 mod element;

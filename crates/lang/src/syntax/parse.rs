@@ -107,6 +107,12 @@ fn parse_piece(text: &str, file: FileId, split: &Split, piece: &SourcePiece, par
     for hole in comments.cloned().chain(semicolons) {
         blank(&mut source, hole.start - offset..hole.end - offset);
     }
+    let semicolon = |&at: &usize| wording::statement_end(";", Span::new(file, at, at + 1));
+    if source.trim().is_empty() {
+        parsed.errors.extend(piece.semicolons.iter().map(semicolon));
+        parsed.tree.broken.push(BrokenSyntax { span: declaration, declaration });
+        return;
+    }
     let mut recovered = None;
     if let Err(error) = NbParser::parse(Rule::declaration, &source) {
         let found = recover::recover(file, &source, offset, expected::place(&error));
@@ -135,7 +141,6 @@ fn parse_piece(text: &str, file: FileId, split: &Split, piece: &SourcePiece, par
     parsed.tree.broken.extend(converter.lost.drain(..).map(|span| BrokenSyntax { span, declaration }));
     // A declaration of another language has one message.
     if tree.is_some() || recovered.is_some() {
-        let semicolon = |&at: &usize| wording::statement_end(";", Span::new(file, at, at + 1));
         converter.errors.extend(piece.semicolons.iter().map(semicolon));
     }
     if let Some((found, parts)) = recovered {
