@@ -37,7 +37,7 @@ test("a mistake is shown at its place, and the swarm follows its fix", async () 
   await here.page.locator(".problems").waitFor({ state: "hidden" });
   await here.page.waitForFunction(() => /^1 robot/.test(document.querySelector(".swarm .status").textContent));
   await here.page.waitForFunction(() =>
-    document.querySelector('.schematic [data-id="cell-0"]')?.textContent.includes("NOR"),
+    document.querySelector('.schematic [data-id="cell-0"]')?.textContent.includes("q = nor(a, b)"),
   );
 });
 
