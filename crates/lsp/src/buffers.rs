@@ -7,6 +7,7 @@ use gen_lsp_types::{TextDocumentContentChangeEvent, Uri};
 use crate::position::{Encoding, Lines};
 use crate::uri;
 use nbc_base::source::LineStarts;
+use nbc_session::Session;
 
 #[derive(Clone, Debug)]
 pub(super) struct Buffer {
@@ -47,6 +48,11 @@ impl Buffers {
     pub(super) fn iter(&self) -> impl Iterator<Item = &Buffer> {
         self.open.values()
     }
+}
+
+/// Of an open source.
+pub(super) fn text(session: &Session, path: &str) -> String {
+    session.text(path).expect("the session has the text of an open source")
 }
 
 pub(super) fn change(text: &mut String, change: TextDocumentContentChangeEvent, encoding: Encoding) {

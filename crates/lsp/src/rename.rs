@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use gen_lsp_types::{TextEdit, Uri, WorkspaceEdit};
 
-use crate::buffers::Buffers;
+use crate::buffers::{self, Buffers};
 use crate::files::Files;
 use crate::navigation::workspace_edit;
 use crate::position::Encoding;
@@ -79,7 +79,7 @@ impl<'a> Rename<'a> {
     pub(super) fn finish(self, buffers: &Buffers, open: &Session) -> Result<WorkspaceEdit, RequestError> {
         let mut session = Session::new(self.world.clone());
         for buffer in buffers.iter() {
-            session.update(&buffer.path, 0, open.text(&buffer.path).unwrap_or_default());
+            session.update(&buffer.path, 0, buffers::text(open, &buffer.path));
         }
         for (name, file) in &self.files {
             let path = uri::path(&Uri(name.clone())).unwrap_or_else(|| name.clone());

@@ -259,7 +259,7 @@ impl Server {
                 let (id, changes) = (changed.text_document, changed.content_changes);
                 let uri = id.text_document_identifier.uri;
                 let Some(buffer) = self.buffers.change(&uri, id.version) else { return };
-                let mut text = self.session.text(&buffer.path).unwrap_or_default();
+                let mut text = buffers::text(&self.session, &buffer.path);
                 changes.into_iter().for_each(|change| buffers::change(&mut text, change, self.encoding));
                 self.session.update(&buffer.path, 0, text);
             }

@@ -5,6 +5,7 @@ use gen_lsp_types::{
     FoldingRangeRequest, SelectionRangeRequest, SemanticTokensRangeRequest, SemanticTokensRequest, TextEdit, Uri,
 };
 
+use crate::buffers;
 use crate::position::Lines;
 use crate::service::{Reply, Server};
 use crate::spot::Spot;
@@ -61,7 +62,7 @@ impl Server {
     ) -> Reply<DocumentRangeFormattingRequest> {
         let Some(buffer) = self.buffers.get(&asked.text_document.uri) else { return Ok(None) };
         let Ok(formatted) = self.session.formatted(&buffer.path) else { return Ok(None) };
-        let text = self.session.text(&buffer.path).unwrap_or_default();
+        let text = buffers::text(&self.session, &buffer.path);
         let starts = LineStarts::of(&text);
         let lines = Lines { text: &text, starts: &starts, encoding: self.encoding };
         Ok(Some(layout::edits(&lines, &formatted, lines.bytes(asked.range))))
@@ -74,7 +75,7 @@ impl Server {
         if formatted.is_canonical {
             return Ok(Some(Vec::new()));
         }
-        let text = self.session.text(&buffer.path).unwrap_or_default();
+        let text = buffers::text(&self.session, &buffer.path);
         let starts = LineStarts::of(&text);
         let range = Lines { text: &text, starts: &starts, encoding: self.encoding }.range(0..text.len());
         Ok(Some(vec![TextEdit { range, new_text: formatted.text }]))

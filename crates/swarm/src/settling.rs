@@ -18,7 +18,7 @@ pub struct Settling<'a> {
     /// Cycles after which the output of each robot is correct, with the window over which it is measured.
     clocks: Vec<usize>,
     start: usize,
-    /// Whether stimuli change within cycles. Only exclusive ors glitch then (docs/own-clocks.md).
+    /// Whether stimuli change within cycles, where the exclusive ors glitch (docs/own-clocks.md).
     is_late: bool,
     /// The stimuli of each robot, and the number of cycles for which they have been known and unchanged.
     sensed: Vec<(Vec<TernaryBit>, usize)>,

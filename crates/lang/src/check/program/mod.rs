@@ -342,12 +342,12 @@ impl<'a> Assembly<'a> {
                 Home::Prelude => (&mut of_prelude, &mut *base),
                 _ => (&mut of_files, &mut files.circuits),
             };
-            let (known, text) = match source {
+            let text = |span| self.declarations.sources.text(span);
+            let known = match source {
                 DeclaredCircuit::Text(_, span) => {
-                    let text = self.declarations.sources.text(span);
-                    (before.remove_entry(text).filter(|(_, known)| known.home == home), text)
+                    before.remove_entry(text(span)).filter(|(_, known)| known.home == home)
                 }
-                DeclaredCircuit::Netlist(_) => (None, ""),
+                DeclaredCircuit::Netlist(_) => None,
             };
             is_same.push(known.is_some());
             let checked = match (source, known) {
@@ -361,7 +361,7 @@ impl<'a> Assembly<'a> {
                     let (declared, counts) = (Vocabulary::of(&self.names, &self.program), self.names.counts());
                     let checked = circuit(source, home, declared, &self.circuits.headers, None);
                     let known = KnownCircuit::of(home, span, &checked, &self.names, counts);
-                    now.extend(known.map(|known| (text.to_owned(), known)));
+                    now.extend(known.map(|known| (text(span).to_owned(), known)));
                     checked
                 }
             };
