@@ -136,7 +136,11 @@ test("it is kept as a robot file, and the program uses it", async () => {
   await here.page.getByText("wrote robots/other.yaml").waitFor();
   await here.page.getByRole("button", { name: "Build d_latch from your robots alone" }).click();
   await here.page.locator('#tab-swarm[aria-selected="true"]').waitFor();
-  await here.page.locator(".schematic").getByRole("button", { name: /robot mine$/ }).first().waitFor();
+  await here.page
+    .locator(".schematic")
+    .getByRole("button", { name: /robot mine$/ })
+    .first()
+    .waitFor();
   await here.page.waitForFunction(() => /^\d+ robots/.test(document.querySelector(".swarm .status").textContent));
   assert.equal(
     await here.page.locator(".circuit").evaluate(select => select.selectedOptions[0].textContent),
