@@ -281,7 +281,7 @@ fn messages_are_written_in_wording_files() {
 /// The most lines of Rust in each room. Whoever needs more raises a figure here, and says why in the commit.
 const ROOMS: [(&str, usize); 16] = [
     ("crates/base", 7_250),
-    ("crates/circuit", 25_200),
+    ("crates/circuit", 25_450),
     ("crates/cluster", 2_700),
     ("crates/lang", 12_850),
     ("crates/learn", 2_650),

@@ -126,9 +126,9 @@ test("every control of the lessons has a role and a name", heard, async () => {
   // A browser tab has no class.
   const course = ["heading: This is a class", "textbox: Your name in the class", "button: Join the class"];
   course.forEach(control => assert.equal(lessons.includes(control), SITE === undefined, lessons.join("\n")));
-  assert.equal(lessons.filter(name => name.startsWith("button: Begin: ")).length, 23);
+  assert.equal(lessons.filter(name => name.startsWith("button: Begin: ")).length, 24);
   assert.ok(lessons.includes("heading: A robot is a gate"));
-  assert.equal(new Set(lessons.filter(name => name.startsWith("button: Begin: "))).size, 23);
+  assert.equal(new Set(lessons.filter(name => name.startsWith("button: Begin: "))).size, 24);
   await page.locator("[data-lesson=stimuli] [data-do=begin]").click();
   await page.waitForFunction(() => document.querySelector(".file").textContent === "lesson_stimuli.nb");
   await page.locator(".strip [data-do=hint]").click();
@@ -139,7 +139,7 @@ test("every control of the lessons has a role and a name", heard, async () => {
     "button: Leave the lesson",
     "button: Start again",
     "button: What is missing?",
-    "heading: Two stimuli 2 of 23",
+    "heading: Two stimuli 2 of 24",
     "link: Step 1, to do",
     "link: Step 2, to do",
   ]);

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::formats::forced::force;
 use crate::formats::wording::text as wording;
 use crate::formats::{Design, Forcing, RegisterKind};
 use crate::proof::prove;
@@ -151,6 +152,8 @@ impl Draft {
                 {
                     wires.push((at, output, next, span));
                 }
+                // What opens it is looked for when all logic is there.
+                Some(_) if nets.is_empty() => {}
                 Some(_) => self.fault(wording::logic_enable(self.text(output), span)),
                 None => self.fault(wording::logic_clock(self.text(clock), self.text(output), span)),
             }
@@ -205,13 +208,14 @@ impl Draft {
                 }
             });
         }
+        let is_logic = |clock: &NetName| self.definitions[*clock as usize].is_some();
         let pins = |register: &DraftRegister| {
-            let span = register.span;
-            std::iter::once(&register.next).chain(&register.nets).map(move |&net| (net, span)).collect::<Vec<_>>()
+            let DraftRegister { span, next, clock, nets, .. } = register;
+            let nets = nets.iter().chain(Some(clock).filter(|clock| is_logic(clock)));
+            std::iter::once(next).chain(nets).map(|&net| (net, *span)).collect::<Vec<_>>()
         };
         let sinks: Vec<_> = self.outputs.iter().copied().chain(self.registers.iter().flat_map(pins)).collect();
         let feedback = self.feedback(&mut logic, &mut nets);
-        let sources = nets.clone();
         for &(name, span) in &sinks {
             self.build(name, span, &mut logic, &mut nets);
         }
@@ -228,18 +232,24 @@ impl Draft {
         for &(name, _) in &self.outputs {
             logic.add_output(self.text(name), net(name));
         }
-        let is_own = |clock: &NetName| sources[*clock as usize].is_none();
+        let is_own = |clock: &NetName| nets[*clock as usize].is_none();
         let clocks = self.registers.iter().map(|register| register.clock).filter(is_own);
         let own: BTreeMap<&str, NetName> = clocks.map(|clock| (self.text(clock), clock)).collect();
         let own: BTreeMap<NetName, NetId> =
             own.into_iter().map(|(name, clock)| (clock, logic.add_input(name))).collect();
-        for (register, id) in self.registers.iter().zip(made) {
+        for (register, &id) in self.registers.iter().zip(&made) {
             let clock = own.get(&register.clock).copied().unwrap_or_else(|| net(register.clock));
             let forcing = register.nets.iter().map(|&name| net(name));
             let pins = [net(register.next), clock].into_iter().chain(forcing);
             (0..).zip(pins).for_each(|(pin, driver)| logic.connect(id, pin, driver));
         }
-        Ok(Design { clocks: own.len(), ..Design::new(logic) })
+        let opened = self.registers.iter().zip(made).filter(|(one, _)| self.definitions[one.clock as usize].is_some());
+        let opened: Vec<(&DraftRegister, NetId)> = opened.collect();
+        let left = force(&mut logic, &opened.iter().map(|&(_, id)| id).collect::<Vec<_>>());
+        let left = opened.iter().filter(|(_, id)| left.contains(id));
+        let fault = |&(one, _): &(&DraftRegister, NetId)| wording::logic_enable(self.text(one.output), one.span);
+        let errors: Vec<Diagnostic> = left.map(fault).take(MOST_ERRORS).collect();
+        if errors.is_empty() { Ok(Design { clocks: own.len(), ..Design::new(logic) }) } else { Err(errors) }
     }
 
     fn feedback(&self, logic: &mut Netlist, nets: &mut [Option<NetId>]) -> Vec<(NetName, NetId)> {

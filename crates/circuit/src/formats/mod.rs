@@ -10,6 +10,7 @@ mod circuit;
 mod design;
 pub mod dot;
 mod draft;
+mod forced;
 mod format;
 mod model_gate;
 mod names;

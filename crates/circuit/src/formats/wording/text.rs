@@ -41,8 +41,8 @@ pub fn logic_clock(clock: &str, register: &str, at: Span) -> Diagnostic {
 pub fn logic_enable(latch: &str, at: Span) -> Diagnostic {
     let message = format!("`{latch}` is a latch, and logic computes when it is open");
     damaged(message, at, "it keeps its value wherever nothing sets it").with_help(
-        "set it in every case, such as by a value before the first `if`; a latch must be opened by an input or a \
-         register",
+        "set it in every case, such as by a value before the first `if`; one input or register must open a latch, \
+         beside what sets and resets it",
     )
 }
 
