@@ -22,7 +22,10 @@ test product "of nothing is the same" {
 }
 `;
 
-const here = served({ "latch.nb": LATCH, "hard.nb": HARD }, "latch.nb");
+/** Takes seconds to compile. */
+const LARGE = HARD.split("\n\n")[0].replaceAll("[10]", "[32]");
+
+const here = served({ "latch.nb": LATCH, "hard.nb": HARD, "large.nb": LARGE }, "latch.nb");
 const at = name => `${here.program.address}#${name}`;
 const shows = (page, name) => page.waitForFunction(want => document.querySelector(".file").textContent === want, name);
 
@@ -49,8 +52,8 @@ test("while a large circuit is compiled other programs open, and Stop ends it", 
   const page = await visit(here.program.url);
   await walking(page);
   await page.locator("[data-do=open]").click();
-  await page.locator('.files [data-open="hard.nb"]').click();
-  await shows(page, "hard.nb");
+  await page.locator('.files [data-open="large.nb"]').click();
+  await shows(page, "large.nb");
   await page.locator(COMPILING).waitFor();
   // The robots of the program before are not taken for those of this one, and rest.
   await page.locator(".swarm.foreign").waitFor({ state: "attached" });

@@ -8,7 +8,7 @@ use std::time::UNIX_EPOCH;
 
 use nbc_base::diag::io_words;
 use nbc_base::source::{FileError, SharedWorld};
-use nbc_play::{CancelSource, PageFolder};
+use nbc_play::{CancelSource, PageFolder, beside_example};
 use nbc_session::store::{self, FolderWorld, GuardedWorld};
 
 /// A folder of the disk. Nothing outside of it is read or written.
@@ -19,7 +19,7 @@ pub(super) struct DiskFolder {
 
 impl DiskFolder {
     pub(super) fn new(world: FolderWorld) -> Self {
-        Self { world }
+        Self { world: world.with_spare(beside_example) }
     }
 }
 

@@ -44,6 +44,7 @@ pub use local::{KeptFile, LocalLine, LocalShell, MemoryFolder, PageMessage};
 pub use local_crew::LocalCrew;
 pub use message::{ClassCourse, ClassRoll};
 pub use outbox::Line;
+pub use page_files::beside_example;
 pub use recorded_page::{ExportedPage, recorded_page, recorded_runs};
 pub use shell::{CancelSource, Crew, PageFolder, Portion, Portions, Shell, WorkKind};
 pub use site::{PUBLIC_PAGE, PlaySite};

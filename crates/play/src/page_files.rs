@@ -15,7 +15,8 @@ use nbc_session::Session;
 
 const EXAMPLES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/circuits");
 
-pub(super) fn beside_example(path: &str) -> Option<&'static str> {
+/// The text of a file that an example uses, by its path beside the examples.
+pub fn beside_example(path: &str) -> Option<&'static str> {
     let file = EXAMPLES.get_file(path).filter(|_| path.contains('/'))?;
     file.contents_utf8()
 }

@@ -14,12 +14,19 @@ use nbc_circuit::CancelFlag;
 pub struct FolderWorld {
     /// Without links.
     root: PathBuf,
+    /// Texts of files that the folder lacks, by their paths in it.
+    spare: fn(&str) -> Option<&'static str>,
 }
 
 impl FolderWorld {
     pub fn new(root: &Path) -> io::Result<Self> {
         let root = fs::canonicalize(root)?;
-        if root.is_dir() { Ok(Self { root }) } else { Err(io::ErrorKind::NotADirectory.into()) }
+        if root.is_dir() { Ok(Self { root, spare: |_| None }) } else { Err(io::ErrorKind::NotADirectory.into()) }
+    }
+
+    /// The same with files that can be read where the folder has none.
+    pub fn with_spare(self, spare: fn(&str) -> Option<&'static str>) -> Self {
+        Self { spare, ..self }
     }
 
     pub fn root(&self) -> &Path {
@@ -73,11 +80,15 @@ fn outside() -> FileError {
 
 impl SourceWorld for FolderWorld {
     fn read(&self, path: &str) -> Result<String, FileError> {
-        disk::source(&self.existing(path)?)
+        FileError::text(self.read_bytes(path)?)
     }
 
     fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
-        disk::source_bytes(&self.existing(path)?)
+        let read = self.existing(path).and_then(|place| disk::source_bytes(&place));
+        read.or_else(|error| {
+            let spare = self.inside(path)?.to_str().and_then(self.spare);
+            spare.map(Vec::from).filter(|_| error == FileError::NotFound).ok_or(error)
+        })
     }
 
     fn read_verilog(&self, files: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
@@ -118,6 +129,9 @@ mod tests {
         assert_eq!(world.read("inner/../inner/a.nb").unwrap(), "a");
         assert_eq!(world.read(&world.root().join("inner/a.nb").to_string_lossy()).unwrap(), "a");
         assert_eq!(world.read("b.nb"), Err(FileError::NotFound));
+        let spared = world.clone().with_spare(|path| (path == "b.nb").then_some("b"));
+        assert_eq!(spared.read("b.nb").unwrap(), "b");
+        assert_eq!(spared.read("inner/b.nb"), Err(FileError::NotFound));
         assert_eq!(world.list("inner").unwrap(), ["a.nb"]);
         for path in ["../secret.nb", "inner/../../secret.nb", "/etc/passwd", "/", ".."] {
             assert!(refused(world.existing(path)) && refused(world.writable(path)), "{path}");

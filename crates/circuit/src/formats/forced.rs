@@ -177,10 +177,10 @@ mod tests {
         let patterns =
             (0..1 << network.inputs).map(|pattern: u32| (0..network.inputs).map(move |at| pattern >> at & 1 == 1));
         patterns
-            .map(|pattern| {
+            .map(|mut pattern| {
                 let pins = network.run(pattern.clone());
                 let is_open = pins[2] == (register.kind == RegisterKind::High);
-                let kept = if is_open { pins[1] } else { pattern.last().unwrap() };
+                let kept = if is_open { pins[1] } else { pattern.next_back().unwrap() };
                 match (register.forcing, &pins[3..]) {
                     (Forcing::ToStart, [true]) => register.starts_at(),
                     (Forcing::SetReset, &[set, reset]) => (kept || set) && !reset,
