@@ -142,7 +142,7 @@ fn add(logic: &mut Netlist, network: &Network, nets: &[NetId]) -> NetId {
 mod tests {
     use super::*;
 
-    /// A latch of the clock in input 0, with its data in input 1 and forced by others, the first of these the strongest.
+    /// A latch with its clock in input 0 and its data in input 1, forced by others, the strongest of them first.
     fn latch(low: bool, forces: &[(usize, bool, bool)]) -> (Netlist, NetId) {
         let mut logic = Netlist::new("m");
         let inputs: Vec<NetId> = (0..5).map(|at| logic.add_input(format!("i{at}"))).collect();
