@@ -420,7 +420,7 @@ fn random_machines_of_verilog_compile_in_each_form_and_do_the_same() {
     assert!(tally.keys().any(|what| what.ends_with("proved")), "{tally:#?}");
 }
 
-// cargo test --test it machines:: -- --ignored --nocapture
+// cargo test --test it many_random_machines -- --ignored --nocapture
 #[test]
 #[ignore = "takes minutes"]
 fn many_random_machines_compile_in_each_form_and_do_the_same() {

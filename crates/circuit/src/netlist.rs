@@ -220,13 +220,6 @@ impl Netlist {
         }
     }
 
-    pub(crate) fn register_mut(&mut self, id: NetId) -> Option<&mut RegisterNode> {
-        match self.node_mut(id) {
-            Node::Register(register) => Some(register),
-            _ => None,
-        }
-    }
-
     /// The registers, in order of numbers.
     pub fn registers(&self) -> impl Iterator<Item = (NetId, &RegisterNode)> {
         self.ids().filter_map(|id| Some((id, self.register(id)?)))

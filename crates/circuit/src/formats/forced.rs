@@ -2,7 +2,7 @@
 
 use crate::network::{Network, Signal, View};
 use crate::proof::equal;
-use crate::{Forcing, NetId, Netlist, RegisterKind, RegisterNode};
+use crate::{Forcing, NetId, Netlist, Node, RegisterKind, RegisterNode};
 use nbc_base::model::Function;
 
 /// The outputs of the logic of a latch.
@@ -21,42 +21,48 @@ struct Parts {
 
 /// Gives each of these latches one net as its clock and nets that force it; returns those that have no such nets.
 pub fn force(logic: &mut Netlist, latches: &[NetId]) -> Vec<NetId> {
+    if latches.is_empty() {
+        return Vec::new();
+    }
     let registers: Vec<NetId> = logic.registers().map(|(id, _)| id).collect();
-    let Some(view) = View::of(logic, &registers).ok().filter(|_| !latches.is_empty()) else { return latches.to_vec() };
+    // A loop of cells has no such view.
+    let Ok(view) = View::of(logic, &registers) else { return latches.to_vec() };
     let mut nets = [false, true].map(|value| logic.add_constant(value)).to_vec();
     nets.extend(logic.inputs().iter().chain(&registers));
-    let left = latches.iter().filter(|&&latch| {
+    let mut left = Vec::new();
+    for &latch in latches {
         let [data, clock] = [RegisterNode::DATA, RegisterNode::CLOCK].map(|pin| logic.pins(latch)[usize::from(pin)]);
         let is_low = logic.register(latch).is_some_and(|latch| latch.kind == RegisterKind::Low);
         let mut whole = view.network.clone();
         let function = if is_low { Function::NOT } else { Function::BUF };
         let open = whole.add(function, [view.signal[&clock]; 2]);
         whole.outputs = vec![view.signal[&data], open];
-        let parts = Parts::of(whole.swept());
-        parts.is_none_or(|parts| {
-            parts.connect(logic, latch, &nets);
-            false
-        })
-    });
-    left.copied().collect()
+        match Parts::of(whole.swept()) {
+            Some(parts) => parts.connect(logic, latch, &nets),
+            None => left.push(latch),
+        }
+    }
+    left
 }
 
 impl Parts {
     fn of(mut rest: Network) -> Option<Self> {
         let mut forces = Vec::new();
         loop {
-            let cases = support(&rest).into_iter().flat_map(|source| [(source, false), (source, true)]);
-            let cases: Vec<(Case, Network)> = cases.map(|case| (case, with(&rest, case))).collect();
-            let opening: Vec<&(Case, Network)> =
-                cases.iter().filter(|(_, case)| constant(case, OPEN) == Some(true)).collect();
-            let is_closing = |&(source, value): &Case| {
-                let other = cases.iter().find(|(case, _)| *case == (source, !value));
-                other.is_some_and(|(_, case)| constant(case, OPEN) == Some(false))
-            };
-            if let Some((clock, data)) = opening.iter().find(|(case, _)| is_closing(case)) {
-                return Some(Self { clock: *clock, forces, data: data.clone() });
+            let mut opening = Vec::new();
+            for input in support(&rest) {
+                let cases = [false, true].map(|value| with(&rest, (input, value)));
+                let opens = [0, 1].map(|value| constant(&cases[value], OPEN));
+                let [at_0, at_1] = cases;
+                match opens {
+                    [Some(false), Some(true)] => return Some(Self { clock: (input, true), forces, data: at_1 }),
+                    [Some(true), Some(false)] => return Some(Self { clock: (input, false), forces, data: at_0 }),
+                    [Some(true), _] => opening.push(((input, false), at_0)),
+                    [_, Some(true)] => opening.push(((input, true), at_1)),
+                    _ => {}
+                }
             }
-            let (force, value) = opening.iter().find_map(|(case, network)| Some((*case, constant(network, DATA)?)))?;
+            let (force, value) = opening.iter().find_map(|(case, at)| Some((*case, constant(at, DATA)?)))?;
             forces.push((force, value));
             rest = with(&rest, (force.0, !force.1));
         }
@@ -92,7 +98,7 @@ impl Parts {
             }
         };
         let data = add(logic, &self.data, nets);
-        if let Some(register) = logic.register_mut(latch) {
+        if let Node::Register(register) = logic.node_mut(latch) {
             let kind = if self.clock.1 { RegisterKind::High } else { RegisterKind::Low };
             (register.kind, register.forcing, register.start) = (kind, forcing, start);
         }
