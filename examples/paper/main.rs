@@ -6,6 +6,7 @@
 mod complexity;
 mod gates;
 mod mutants;
+mod reached;
 mod rules;
 mod transfer;
 
@@ -44,6 +45,12 @@ struct End {
 #[derive(Deserialize)]
 struct Published {
     robots: Vec<PublishedRobot>,
+}
+
+impl Published {
+    fn read() -> Fallible<Self> {
+        Ok(serde_json::from_str(include_str!("../../tests/golden/paper_robots.json"))?)
+    }
 }
 
 #[derive(Deserialize)]
@@ -90,6 +97,8 @@ fn main() -> Fallible<()> {
         print_difficulties(&moments);
         print_means(&moments);
         print_growth(&whole);
+        reached::print_published(&boxes, &[&long, &wide, &widest])?;
+        reached::print_claims(&whole);
         print_unfinished(&whole[1..]);
         rules::print_distances(small, &code);
         rules::print_matters(&[
@@ -182,9 +191,8 @@ fn print_least_distances(boxes: &[BTreeMap<u64, Run>]) {
 
 /// The published robots beside ours of the short and the long runs, by the second fitness.
 fn print_published(boxes: &[usize], short: &[BTreeMap<u64, Run>], long: &[&BTreeMap<u64, Run>]) -> Fallible<()> {
-    let published: Published = serde_json::from_str(include_str!("../../tests/golden/paper_robots.json"))?;
     println!("\n| behavior | box | published | best run | median run | best long run |\n|---|---|---|---|---|---|");
-    for PublishedRobot { behavior, min_displacement, body } in published.robots {
+    for PublishedRobot { behavior, min_displacement, body } in Published::read()?.robots {
         let Some(place) = boxes.iter().position(|&side| side == body.len()) else { continue };
         let Spread { median, most, .. } = least_distances(&short[place], behavior);
         print!("| {behavior} | {0}x{0} | {min_displacement:.2} | {most:.2} | {median:.2}", body.len());
@@ -220,9 +228,7 @@ fn print_difficulties(moments: &[Moment]) {
         .map(|moment| {
             let eight = moment.groups(|_| true);
             let sides = [1, 2].map(|place| eight[place].clone());
-            let next = |pair: &GroupComparison| pair.groups[1] == pair.groups[0] + 1;
-            let order = report::compare_groups(&by_difficulty(&eight)).into_iter().filter(next);
-            order.chain(report::compare_groups(&sides)).collect()
+            order(&eight).chain(report::compare_groups(&sides)).collect()
         })
         .collect();
     let names = ["no stimulus, one", "one, both", "both, XOR and XNOR", "first stimulus, second"];
@@ -265,6 +271,12 @@ fn print_unfinished(boxes: &[(&str, &BTreeMap<u64, Run>)]) {
         let each: Vec<String> = runs.iter().map(|(seed, run)| format!("{seed}: {}", last(run))).collect();
         println!("{name}, generations by seed: {}", each.join(", "));
     }
+}
+
+/// Each difficulty beside the next one.
+fn order(groups: &[BehaviorGroup]) -> impl Iterator<Item = GroupComparison> {
+    let next = |pair: &GroupComparison| pair.groups[1] == pair.groups[0] + 1;
+    report::compare_groups(&by_difficulty(groups)).into_iter().filter(next)
 }
 
 /// The groups of a difficulty as one. Each run must have found all of them.
