@@ -407,9 +407,9 @@ fn check_verilog(seeds: std::ops::Range<u64>, tally: &mut Tally) {
 #[test]
 fn random_machines_compile_in_each_form_and_do_the_same() {
     let mut tally = Tally::new();
-    (0..25).for_each(|seed| check_texts(seed, &mut tally));
+    (0..12).for_each(|seed| check_texts(seed, &mut tally));
     let proved: usize = tally.iter().filter(|(what, _)| what.ends_with("proved")).map(|(_, count)| count).sum();
-    assert!(proved > 60, "{tally:#?}");
+    assert!(proved > 30, "{tally:#?}");
 }
 
 #[test]

@@ -3,8 +3,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{LazyLock, OnceLock};
 
-use regex::Regex;
-
 use crate::support::*;
 
 /// A path of modules and items, which begins with the crate.
@@ -13,7 +11,7 @@ type Item = Vec<String>;
 /// A file of the source.
 pub struct Module {
     pub path: PathBuf,
-    name: Item,
+    pub name: Item,
     /// The text without unit tests; every line keeps its number.
     pub product: String,
     /// `product` without comments and the contents of literals.
@@ -86,12 +84,37 @@ fn module_name(path: &Path) -> Item {
 
 /// The text with comments and the contents of literals replaced by blanks; every character keeps its place.
 fn code_only(text: &str) -> String {
-    static LITERAL: LazyLock<Regex> = LazyLock::new(|| {
-        Regex::new(r##"(?s)//[^\n]*|/\*.*?\*/|r#".*?"#|"(?:\\.|[^"\\])*"|'(?:\\(?:u\{[^}]*\}|x..|.)|[^'\\\n])'"##)
-            .unwrap()
-    });
-    let blank = |found: &regex::Captures| found[0].chars().map(|c| if c == '\n' { c } else { ' ' }).collect::<String>();
-    LITERAL.replace_all(text, blank).into_owned()
+    let mut code = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(next) = rest.chars().next() {
+        let after = |start: usize, end: &str| rest[start..].find(end).map_or(rest.len(), |at| start + at + end.len());
+        let literal = match next {
+            '/' if rest.starts_with("//") => rest.find('\n').unwrap_or(rest.len()),
+            '/' if rest.starts_with("/*") => after(2, "*/"),
+            'r' if rest.starts_with("r#\"") => after(3, "\"#"),
+            '"' => closed(rest, '"'),
+            // A lifetime has no second quote after one character.
+            '\'' if rest[1..].starts_with('\\') || rest.chars().nth(2) == Some('\'') => closed(rest, '\''),
+            _ => 0,
+        };
+        let (blank, code_until) = (literal, literal.max(next.len_utf8()));
+        code.extend(rest[..blank].chars().map(|c| if c == '\n' { c } else { ' ' }));
+        code.push_str(&rest[blank..code_until]);
+        rest = &rest[code_until..];
+    }
+    code
+}
+
+/// The length of the literal that begins with a quote, with both quotes.
+fn closed(text: &str, quote: char) -> usize {
+    let mut escaped = false;
+    for (at, c) in text.char_indices().skip(1) {
+        if c == quote && !escaped {
+            return at + 1;
+        }
+        escaped = c == '\\' && !escaped;
+    }
+    text.len()
 }
 
 /// The text without the items that are compiled for unit tests only; their lines become empty.
@@ -125,17 +148,22 @@ fn item_end(code: &[char], start: usize) -> usize {
 }
 
 /// For each module, by index, the modules that it imports. An item that a folder re-exports belongs to its own file.
-pub fn imports(modules: &[Module]) -> Vec<BTreeSet<usize>> {
+pub fn imports() -> &'static [BTreeSet<usize>] {
+    static IMPORTS: LazyLock<Vec<BTreeSet<usize>>> = LazyLock::new(|| find_imports(modules()));
+    &IMPORTS
+}
+
+fn find_imports(modules: &[Module]) -> Vec<BTreeSet<usize>> {
     let index: BTreeMap<&Item, usize> = modules.iter().enumerate().map(|(at, module)| (&module.name, at)).collect();
     let mut exported: BTreeMap<Item, Item> = BTreeMap::new();
     let mut named: Vec<Vec<Item>> = Vec::new();
     for module in modules {
-        let (public, private) = uses(&module.code);
+        let (public, private, others) = uses(&module.code);
         let resolve = |items: Vec<Item>| items.into_iter().filter_map(|item| absolute(&item, &module.name, &index));
         for item in resolve(public) {
             exported.insert([module.name.clone(), vec![item.last().unwrap().clone()]].concat(), item);
         }
-        named.push(resolve(private).chain(resolve(paths(&module.code))).collect());
+        named.push(resolve(private).chain(resolve(paths(&others))).collect());
     }
     let home = |item: &Item| {
         let mut item = item.clone();
@@ -152,17 +180,27 @@ pub fn imports(modules: &[Module]) -> Vec<BTreeSet<usize>> {
     named.iter().enumerate().map(imported).collect()
 }
 
-fn uses(code: &str) -> (Vec<Item>, Vec<Item>) {
-    static DECLARATION: LazyLock<Regex> =
-        LazyLock::new(|| Regex::new(r"(?m)^( *)(pub(?:\([^)]*\))?\s+)?use\s+([^;]+);").unwrap());
-    let (mut public, mut private) = (Vec::new(), Vec::new());
-    for found in DECLARATION.captures_iter(code) {
-        let list = if found.get(2).is_some() { &mut public } else { &mut private };
+/// The declarations of what a file uses, each with whether it is public, and the code without them.
+fn uses(code: &str) -> (Vec<Item>, Vec<Item>, String) {
+    let (mut public, mut private, mut others) = (Vec::new(), Vec::new(), String::new());
+    let mut rest = code;
+    while !rest.is_empty() {
+        let line = rest.split_inclusive('\n').next().unwrap();
+        let item = line.trim_start();
+        let visible = item.strip_prefix("pub").map(|item| item.trim_start_matches(|c| c != ' ').trim_start());
+        if !visible.unwrap_or(item).starts_with("use ") {
+            others.push_str(line);
+            rest = &rest[line.len()..];
+            continue;
+        }
+        let (declaration, after) = rest.split_once(';').expect("a semicolon ends what is used");
+        let (_, tree) = declaration.split_once("use ").unwrap();
         // In a module within the file, `super` is the file.
-        let tree = if found[1].is_empty() { found[3].to_owned() } else { found[3].replacen("super", "self", 1) };
-        expand(&tree, &[], list);
+        let tree = if line.starts_with(' ') { tree.replacen("super", "self", 1) } else { tree.to_owned() };
+        expand(&tree, &[], if visible.is_some() { &mut public } else { &mut private });
+        rest = after;
     }
-    (public, private)
+    (public, private, others)
 }
 
 fn expand(tree: &str, before: &[String], items: &mut Vec<Item>) {
@@ -193,14 +231,11 @@ fn expand(tree: &str, before: &[String], items: &mut Vec<Item>) {
 }
 
 fn paths(code: &str) -> Vec<Item> {
-    static PATTERNS: LazyLock<[Regex; 3]> = LazyLock::new(|| {
-        let declaration = r"(?m)^\s*(pub(?:\([^)]*\))?\s+)?use\s+[^;]+;";
-        [declaration, r"pub\(in [^)]*\)", r"(?:^|[^\w:])(\w+(?:::\w+)+)"].map(|text| Regex::new(text).unwrap())
-    });
-    let [declaration, within, path] = &*PATTERNS;
-    let code = declaration.replace_all(code, "");
-    let code = within.replace_all(&code, "pub");
-    path.captures_iter(&code).map(|found| found[1].split("::").map(str::to_owned).collect()).collect()
+    let code = code.replace("pub(in ", "pub(::");
+    let words =
+        code.split(|c: char| !c.is_alphanumeric() && c != '_' && c != ':').map(|word| word.trim_end_matches(':'));
+    let paths = words.filter(|word| !word.starts_with(':') && word.contains("::"));
+    paths.map(|path| path.split("::").map(str::to_owned).collect()).collect()
 }
 
 /// A path that begins with its crate, if it names something of these crates.
