@@ -159,6 +159,11 @@ const DEEDS = {
     await show(page, "robots");
     // The materials come with the robots of the library.
     await page.locator(".palette [role=radio]").first().waitFor();
+    // The same body and the same search each time: others may need minutes for a lesson.
+    await page.evaluate(() => {
+      let last = 1;
+      Math.random = () => (last = (last * 16807) % 2147483647) / 2147483647;
+    });
     await page.locator("[data-do=random]").click();
   },
   evolve: page => page.locator("[data-do=evolve]").click(),
