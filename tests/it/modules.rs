@@ -97,10 +97,11 @@ fn code_only(text: &str) -> String {
             '\'' if rest[1..].starts_with('\\') || rest.chars().nth(2) == Some('\'') => closed(rest, '\''),
             _ => 0,
         };
-        let (blank, code_until) = (literal, literal.max(next.len_utf8()));
-        code.extend(rest[..blank].chars().map(|c| if c == '\n' { c } else { ' ' }));
-        code.push_str(&rest[blank..code_until]);
-        rest = &rest[code_until..];
+        if literal == 0 {
+            code.push(next);
+        }
+        code.extend(rest[..literal].chars().map(|c| if c == '\n' { c } else { ' ' }));
+        rest = &rest[literal.max(next.len_utf8())..];
     }
     code
 }
@@ -180,7 +181,7 @@ fn find_imports(modules: &[Module]) -> Vec<BTreeSet<usize>> {
     named.iter().enumerate().map(imported).collect()
 }
 
-/// The declarations of what a file uses, each with whether it is public, and the code without them.
+/// What a file uses, in public and in private declarations, and the code without these.
 fn uses(code: &str) -> (Vec<Item>, Vec<Item>, String) {
     let (mut public, mut private, mut others) = (Vec::new(), Vec::new(), String::new());
     let mut rest = code;

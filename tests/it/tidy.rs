@@ -182,8 +182,8 @@ fn the_ways_through_pass_functions_that_exist() {
     let names: Vec<&str> = section.split('`').skip(1).step_by(2).collect();
     assert!(names.len() > 40, "{names:?}");
     let word = |text: &str| text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
-    let words = |module: &Module, before: &str| module.code.split(before).skip(1).map(word).collect::<BTreeSet<_>>();
-    let functions: Vec<BTreeSet<String>> = modules().iter().map(|module| words(module, "fn ")).collect();
+    let functions = modules().iter().map(|module| module.code.split("fn ").skip(1).map(word).collect());
+    let functions: Vec<BTreeSet<String>> = functions.collect();
     for name in names {
         let (owner, function) = name.rsplit_once("::").map_or((None, name), |(owner, name)| (Some(owner), name));
         let is_of = |module: &Module| {
