@@ -10,7 +10,7 @@ use nbc_sim::Simulator;
 use nbc_swarm::evolve::Elite;
 use nbc_swarm::{ImageSets, image_displacements};
 
-const PORTION: usize = 64;
+const PORTION: usize = 32;
 
 /// Bodies that are shown the images of a schedule, each from a fresh start.
 #[derive(Clone, Debug)]
