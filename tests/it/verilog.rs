@@ -312,7 +312,7 @@ fn a_module_and_its_parameters_can_be_chosen() {
 
 #[test]
 fn yosys_proves_what_is_written_equal_port_by_port() {
-    let Some(_) = SLANG.find() else { return };
+    let Some(yosys) = SLANG.find() else { return };
     let bench = Bench::new();
     let text = "module alu(input [1:0] op, input [5:2] a, input [3:0] b, output reg [3:0] q, output zero);\n  \
         always @* case (op) 0: q = a + b; 1: q = a - b; 2: q = a & b; default: q = a ^ b; endcase\n  \
@@ -324,6 +324,6 @@ fn yosys_proves_what_is_written_equal_port_by_port() {
     assert!(written.starts_with(head), "{written}");
     let script = "read_verilog -sv alu.v; proc; opt_clean; rename alu gold; read_verilog out.v; \
         rename alu gate; miter -equiv -flatten gold gate both; sat -verify -prove trigger 0 both";
-    let ran = Command::new("yosys").args(["-q", "-p", script]).current_dir(bench.path()).output_in_time();
+    let ran = Command::new(yosys).args(["-q", "-p", script]).current_dir(bench.path()).output_in_time();
     assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
 }
