@@ -50,9 +50,18 @@ function socketTo(path, headers = {}) {
       socket.write(`GET ${path} HTTP/1.1\r\n${lines.join("")}\r\n`),
     );
     socket.once("error", reject);
-    socket.once("data", data =>
-      resolve({ socket, status: Number(/^HTTP\/1.1 (\d+)/.exec(data.toString("latin1"))?.[1]) }),
-    );
+    let read = Buffer.alloc(0);
+    // The head comes in any parts, and messages may come together with its end.
+    const begin = data => {
+      read = Buffer.concat([read, data]);
+      const end = read.indexOf("\r\n\r\n");
+      if (end >= 0) {
+        socket.off("data", begin);
+        const status = Number(/^HTTP\/1.1 (\d+)/.exec(read.toString("latin1"))?.[1]);
+        resolve({ socket, status, rest: read.subarray(end + 4) });
+      }
+    };
+    socket.on("data", begin);
     socket.once("close", () => resolve({ socket, status: 0 }));
   });
 }
@@ -169,9 +178,10 @@ class WebSocketClient {
   #rest = Buffer.alloc(0);
 
   constructor(path) {
-    this.opened = socketTo(path).then(({ socket, status }) => {
+    this.opened = socketTo(path).then(({ socket, status, rest }) => {
       assert.equal(status, 101);
       this.socket = socket;
+      this.#receive(rest);
       socket.on("data", data => this.#receive(data));
       socket.on("error", () => {});
     });
