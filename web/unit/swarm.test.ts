@@ -3,7 +3,7 @@ import { test } from "node:test";
 
 import type { Connection } from "../src/connection";
 import { situationOf } from "../src/learn/situation";
-import { halfOf } from "../src/live/clock";
+import { halfOf, pulse } from "../src/live/clock";
 import { LiveSwarm } from "../src/live/swarm";
 import { Observable } from "../src/observable";
 import type { ShownSwarm } from "../src/protocol";
@@ -76,6 +76,22 @@ class Server {
     return this.asked.filter(({ verb }) => verb === "inputs").map(({ fields }) => fields["bits"]);
   }
 }
+
+test("a pulse is as long as asked for, however late it begins", () => {
+  const { server, swarm } = Server.withRun();
+  const frame = (from: number, ...log: string[]): void => {
+    const cycles = log.map(bits => ({ inputs: [...bits].map(Number), robots: [], outputs: [], places: [] }));
+    server.onframe(encodeFrame({ now: from + log.length - 1, from, running: true, log: cycles }));
+  };
+  frame(5, "00");
+  pulse(swarm, 0, 2);
+  const raised = server.told();
+  frame(6, "00", "00");
+  frame(8, "00", "10");
+  assert.deepEqual(server.told(), raised);
+  frame(10, "10");
+  assert.deepEqual(server.told().length, raised.length + 1);
+});
 
 test("a rewind takes over the inputs of its cycle, whatever frames are still on their way", () => {
   for (const [sought, late] of [

@@ -8,7 +8,7 @@ import type { LiveSwarm } from "./swarm";
 
 export class ClockPanel {
   readonly host = element("div", { class: "clock", role: "group", "aria-label": "Clock" });
-  #pulse: (() => void) | null = null;
+  #endPulse: () => void = () => {};
   #unfollow: () => void = () => {};
   #name: HTMLElement | null = null;
 
@@ -21,7 +21,7 @@ export class ClockPanel {
     const definition = this.swarm.definition.value;
     const bits = definition === null ? [] : likelyClock(definition);
     const [likely] = bits;
-    this.#pulse?.();
+    this.#endPulse();
     this.host.hidden = likely === undefined;
     if (definition === null || likely === undefined) {
       return;
@@ -57,11 +57,15 @@ export class ClockPanel {
       automatic.textContent = clock === null ? "Start clock" : "Stop clock";
       automatic.setAttribute("aria-pressed", String(clock !== null));
     });
-    const pulse = button("Pulse", () => this.#press(Number(which.value), Number(half.value)), {
+    const press = (): void => {
+      this.#endPulse();
+      this.#endPulse = pulse(this.swarm, Number(which.value), Number(half.value));
+    };
+    const once = button("Pulse", press, {
       title: "Set the input to 1 for half a period, then to 0",
       "data-do": "pulse",
     });
-    const parts = [which, pulse, automatic, element("label", { class: "half" }, "every ", half, " cycles")];
+    const parts = [which, once, automatic, element("label", { class: "half" }, "every ", half, " cycles")];
     if (isClock(likely)) {
       fill(this.host, element("span", { class: "caption" }, "Clock"), ...parts);
       return;
@@ -91,31 +95,32 @@ export class ClockPanel {
       this.swarm.play();
     }
   }
+}
 
-  /** Raises the input, and lowers it again when half a period has passed. */
-  #press(bit: number, half: number): void {
-    const { swarm } = this;
-    const start = swarm.frame.value?.now ?? 0;
-    this.#pulse?.();
-    swarm.setClock(null);
-    swarm.setBit(bit, 1);
-    if (!swarm.running.value) {
-      swarm.step(half);
-    }
-    const stop = swarm.frame.on(frame => {
-      if (frame !== null && (frame.now >= start + half || frame.now < start)) {
-        this.#pulse?.();
-        swarm.setBit(bit, 0);
-        if (!frame.running) {
-          swarm.step(half);
-        }
-      }
-    });
-    this.#pulse = () => {
-      stop();
-      this.#pulse = null;
-    };
+/** Raises an input, and lowers it again when it has been on for so many cycles. What it returns ends that. */
+export function pulse(swarm: LiveSwarm, bit: number, cycles: number): () => void {
+  const begun = swarm.frame.value?.now ?? 0;
+  // The last cycle without it, which may be later than the one that is shown.
+  let before = begun;
+  swarm.setClock(null);
+  swarm.setBit(bit, 1);
+  if (!swarm.running.value) {
+    swarm.step(cycles);
   }
+  const stop = swarm.frame.on(frame => {
+    const now = frame?.now ?? begun;
+    while (before < now && swarm.log.at(before + 1)?.inputs[bit] !== 1) {
+      before++;
+    }
+    if (now >= before + cycles || now < begun) {
+      stop();
+      swarm.setBit(bit, 0);
+      if (frame?.running === false) {
+        swarm.step(cycles);
+      }
+    }
+  });
+  return stop;
 }
 
 /** The inputs that may be the clock, the likely one first; none of a wave machine, whose steps are its clock. */
