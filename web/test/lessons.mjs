@@ -159,7 +159,7 @@ const DEEDS = {
     await show(page, "robots");
     // The materials come with the robots of the library.
     await page.locator(".palette [role=radio]").first().waitFor();
-    // The same body and the same search each time: others may need minutes for a lesson.
+    // The same body and the same search each time (Park and Miller's generator): others may need minutes.
     await page.evaluate(() => {
       let last = 1;
       Math.random = () => (last = (last * 16807) % 2147483647) / 2147483647;

@@ -62,7 +62,7 @@ test("a swarm of two hundred walks", async () => {
   await walking(page);
 });
 
-test("frames carry the poses of the lanes in view only", { skip: needs("frames") }, async () => {
+test("frames carry the poses of the lanes in view only", { skip: needs("web socket") }, async () => {
   // Frames that were made before the page said what is in view still have all robots.
   const size = await page.evaluate(
     () =>

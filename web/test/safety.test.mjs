@@ -51,7 +51,7 @@ function socketTo(path, headers = {}) {
     );
     socket.once("error", reject);
     let read = Buffer.alloc(0);
-    // The head comes in any parts, and messages may come together with its end.
+    // The head may come in several parts, and messages together with the last of them.
     const begin = data => {
       read = Buffer.concat([read, data]);
       const end = read.indexOf("\r\n\r\n");

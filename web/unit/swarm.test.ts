@@ -55,15 +55,15 @@ class Server {
     const server = new Server();
     const swarm = new LiveSwarm(server as unknown as Connection);
     swarm.begin(SWARM);
-    const log = ["00", "10", "01", "11"].map(bits => ({
-      inputs: [...bits].map(Number),
-      robots: [],
-      outputs: [],
-      places: [],
-    }));
-    server.onframe(encodeFrame({ now: 4, from: 1, log }));
+    server.run(1, ["00", "10", "01", "11"], false);
     server.asked.length = 0;
     return { server, swarm };
+  }
+
+  /** The frame of cycles with these inputs. */
+  run(from: number, inputs: string[], running = true): void {
+    const log = inputs.map(bits => ({ inputs: [...bits].map(Number), robots: [], outputs: [], places: [] }));
+    this.onframe(encodeFrame({ now: from + log.length - 1, from, running, log }));
   }
 
   /** The frame of a moment in the log. */
@@ -79,18 +79,14 @@ class Server {
 
 test("a pulse is as long as asked for, however late it begins", () => {
   const { server, swarm } = Server.withRun();
-  const frame = (from: number, ...log: string[]): void => {
-    const cycles = log.map(bits => ({ inputs: [...bits].map(Number), robots: [], outputs: [], places: [] }));
-    server.onframe(encodeFrame({ now: from + log.length - 1, from, running: true, log: cycles }));
-  };
-  frame(5, "00");
+  server.run(5, ["00"]);
   pulse(swarm, 0, 2);
   const raised = server.told();
-  frame(6, "00", "00");
-  frame(8, "00", "10");
+  server.run(6, ["00", "00"]);
+  server.run(8, ["00", "10"]);
   assert.deepEqual(server.told(), raised);
-  frame(10, "10");
-  assert.deepEqual(server.told().length, raised.length + 1);
+  server.run(10, ["10"]);
+  assert.deepEqual(server.told(), [...raised, "00"]);
 });
 
 test("a rewind takes over the inputs of its cycle, whatever frames are still on their way", () => {

@@ -10,6 +10,7 @@ use nbc_sim::Simulator;
 use nbc_swarm::evolve::Elite;
 use nbc_swarm::{ImageSets, image_displacements};
 
+/// Images between two looks for a signal.
 const PORTION: usize = 32;
 
 /// Bodies that are shown the images of a schedule, each from a fresh start.

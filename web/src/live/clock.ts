@@ -97,10 +97,10 @@ export class ClockPanel {
   }
 }
 
-/** Raises an input, and lowers it again when it has been on for so many cycles. What it returns ends that. */
+/** Raises an input, and lowers it when it has been 1 for so many cycles. The result leaves it as it is. */
 export function pulse(swarm: LiveSwarm, bit: number, cycles: number): () => void {
   const begun = swarm.frame.value?.now ?? 0;
-  // The last cycle without it, which may be later than the one that is shown.
+  // The last cycle in which it was 0: the swarm may be ahead of the frame that is shown.
   let before = begun;
   swarm.setClock(null);
   swarm.setBit(bit, 1);
