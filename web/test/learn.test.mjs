@@ -1,10 +1,10 @@
-// Every lesson is done by doing it, several pages at once. A page without a program computes by itself, with all
-// processors, and is alone.
+// Every lesson is done by doing it, in Chromium several pages at once. Firefox gives what is typed to one page only, and
+// a page without a program computes with all processors: there, one after the other.
 
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
 
-import { closeBrowser, visit } from "./browser.mjs";
+import { BROWSER, closeBrowser, visit } from "./browser.mjs";
 import { SHIPPED, lessonsOf, playLesson } from "./lessons.mjs";
 import { SITE, folderWith, play } from "./program.mjs";
 
@@ -25,7 +25,7 @@ after(async () => {
   place?.remove();
 });
 
-describe("lessons", { concurrency: SITE === undefined ? 4 : 1 }, () => {
+describe("lessons", { concurrency: SITE === undefined && BROWSER === "chromium" ? 4 : 1 }, () => {
   for (const lesson of LESSONS) {
     test(lesson.name, async () => {
       const page = await visit(program.url);

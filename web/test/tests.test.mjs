@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { cycle, lamp, typeProgram } from "./browser.mjs";
+import { cycle, lampsShow, typeProgram } from "./browser.mjs";
 import { opened } from "./opened.mjs";
 import { LATCH } from "./program.mjs";
 
@@ -48,10 +48,9 @@ test("it leads to its line", async () => {
 test("it leads to its moment in the run, which can be rewound", async () => {
   await here.page.locator('.rows tr[data-passed="false"] [data-do=moment]').click();
   await here.page.locator("#tab-swarm[aria-selected=true]").waitFor();
-  await here.page.locator('[data-lamp="q"][data-value="1"]').waitFor();
+  await lampsShow(here.page, { q: 1, nq: 0 });
   assert.equal(await here.page.locator('button[data-input="d"]').getAttribute("aria-checked"), "true");
   assert.equal(await here.page.locator('button[data-input="e"]').getAttribute("aria-checked"), "false");
-  assert.equal(await lamp(here.page, "nq"), 0);
   const end = await cycle(here.page);
   await here.page.locator(".rewind").fill("2");
   await here.page.waitForFunction(last => document.querySelector(".cycle").textContent === `cycle 2 of ${last}`, end);
@@ -82,7 +81,7 @@ test("what refutes a property is watched, and becomes a test", async () => {
   await claim.locator("[data-do=prove]").click();
   await refuted.locator("[data-do=watch]").click();
   await here.page.locator("#tab-swarm[aria-selected=true]").waitFor();
-  await here.page.locator('[data-lamp="q"][data-value="1"]').waitFor();
+  await lampsShow(here.page, { q: 1, nq: 0 });
 });
 
 test("a test from a file says how many rows pass, and its rows lead to it", async () => {
