@@ -111,3 +111,8 @@ function drawIcon(name: IconName): SVGElement {
   svg.append(path);
   return svg as SVGElement;
 }
+
+/** The number of a field that counts, from 1 up; without one, another. */
+export function countIn({ value }: HTMLInputElement, otherwise = 1): number {
+  return Math.max(1, Math.round(Number(value)) || otherwise);
+}

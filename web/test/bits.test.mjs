@@ -205,6 +205,10 @@ async function ofChromium(requests, page) {
       worker.onmessage = ({ data }) => {
         if (data.say === "file") {
           files.set(data.address, new Blob([data.bytes]).text());
+        } else if (data.say === "ready") {
+          const [helper, { port1, port2 }] = [new Worker(script), new MessageChannel()];
+          helper.postMessage({ say: "assist", module: data.module, port: port1 }, [port1]);
+          worker.postMessage({ say: "crew", ports: [port2] }, [port2]);
         } else if (data.say === "live" && typeof data.data === "string") {
           hear(data.data);
         } else if (data.say === "live") {
@@ -214,7 +218,6 @@ async function ofChromium(requests, page) {
         }
       };
       worker.postMessage({ say: "begin", program, first: "", files: [], keeps: false });
-      worker.postMessage({ say: "gather", after: 0 });
       const said = [];
       let id = 0;
       for (const { wait, ...request } of requests) {
@@ -231,7 +234,7 @@ async function ofChromium(requests, page) {
           };
         });
         // Those who simulate parts come later than the program.
-        while (wait && navigator.hardwareConcurrency > 1 && (await window.workers()) < 2) {
+        while (wait && (await window.workers()) < 2) {
           await new Promise(requestAnimationFrame);
         }
         worker.postMessage({ say: "live", text: JSON.stringify({ id, ...request }) });

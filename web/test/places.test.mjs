@@ -10,7 +10,9 @@ import { LATCH } from "./program.mjs";
 
 const MATERIAL = "material slow { kind: actuator, drive: sine, period: 168 steps, phase: 0 deg, range: 0.6..1.6 }\n";
 
-const here = served({ "latch.nb": LATCH, "material.nb": MATERIAL }, "latch.nb");
+const BROKEN = "circuit gate(a) -> (q) {\n    q = not b\n}\n";
+
+const here = served({ "latch.nb": LATCH, "material.nb": MATERIAL, "broken.nb": BROKEN }, "latch.nb");
 
 const at = fragment => `${here.program.address}#${fragment}`;
 const file = (page, name) => page.waitForFunction(want => document.querySelector(".file").textContent === want, name);
@@ -105,6 +107,16 @@ test("a program without a circuit says so, and shows no robots of another", asyn
   await page.locator(".stage").waitFor();
   await typeProgram(page, MATERIAL);
   await says(/^The program has no circuit; these robots are from before$/);
+  await page.locator(".stage").waitFor();
+  await page.leave();
+});
+
+test("a program that opens with an error says so, and shows no robots until it is mended", async () => {
+  const page = await visit(at("broken.nb"));
+  await page.locator(".swarm .status", { hasText: /^1 error in the program$/ }).waitFor();
+  await page.locator(".stage").waitFor({ state: "hidden" });
+  await typeProgram(page, LATCH);
+  await walking(page);
   await page.locator(".stage").waitFor();
   await page.leave();
 });

@@ -3,82 +3,101 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
+import { Assistants } from "../src/tab/assistants";
 import { Crew } from "../src/tab/crew";
-import type { FromWorker, ToWorker } from "../src/tab/messages";
+import type { Part, ToWorker } from "../src/tab/messages";
 
 class FakeWorker {
-  static all: FakeWorker[] = [];
-  readonly said: ToWorker[] = [];
+  port: MessagePort | null = null;
   isEnded = false;
-  onmessage: (event: { data: FromWorker }) => void = () => {};
-  onerror: (event: { preventDefault: () => void }) => void = () => {};
-
-  constructor() {
-    FakeWorker.all.push(this);
-  }
+  onmessage: (event: Event) => void = () => {};
+  onerror: (event: Event) => void = () => {};
 
   postMessage(message: ToWorker): void {
-    this.said.push(message);
+    assert.equal(message.say, "assist");
+    this.port = message.say === "assist" ? message.port : null;
   }
 
   terminate(): void {
     this.isEnded = true;
-  }
-
-  say(data: FromWorker): void {
-    this.onmessage({ data });
-  }
-
-  /** The numbers of the parts that it was given. */
-  get parts(): number[] {
-    return this.said.flatMap(message => (message.say === "part" ? [message.number] : []));
+    this.port?.close();
   }
 }
 
-function crew(processors: number): { made: Crew; workers: FakeWorker[]; sizes: number[]; done: number[] } {
-  FakeWorker.all = [];
-  const place = { location: { href: "worker.js" }, navigator: { hardwareConcurrency: processors }, Worker: FakeWorker };
-  for (const [name, value] of Object.entries(place)) {
-    Object.defineProperty(globalThis, name, { value, configurable: true });
-  }
-  const [sizes, done]: [number[], number[]] = [[], []];
-  const made = new Crew(
-    {} as WebAssembly.Module,
-    size => sizes.push(size),
-    number => done.push(number),
-  );
-  return { made, workers: FakeWorker.all, sizes, done };
+/** Workers for so many processors, and what the ports to them were. */
+function assistants(processors: number): { made: Assistants; workers: FakeWorker[]; led: MessagePort[][] } {
+  Object.defineProperty(globalThis, "navigator", { value: { hardwareConcurrency: processors }, configurable: true });
+  const [workers, led]: [FakeWorker[], MessagePort[][]] = [[], []];
+  const start = (): Worker => {
+    workers.push(new FakeWorker());
+    return workers.at(-1) as unknown as Worker;
+  };
+  const made = new Assistants({} as WebAssembly.Module, start, ports => led.push(ports));
+  return { made, workers, led };
 }
+
+/** What has been posted has come. */
+const delivered = (): Promise<void> => new Promise(done => setTimeout(done, 20));
 
 test("there is one for each other processor, and at most seven", () => {
-  assert.deepEqual(
-    [1, 2, 4, 64].map(processors => crew(processors).workers.length),
-    [0, 1, 3, 7],
-  );
+  for (const [processors, count] of [
+    [1, 0],
+    [2, 1],
+    [4, 3],
+    [64, 7],
+  ] as const) {
+    const { made, workers, led } = assistants(processors);
+    assert.deepEqual([workers.length, led.map(ports => ports.length)], [count, [count]]);
+    made.end();
+    assert.ok(workers.every(worker => worker.isEnded));
+  }
 });
 
-test("several have parts in turn, as soon as they are ready", () => {
-  const { made, workers, sizes, done } = crew(4);
-  workers.forEach(worker => assert.deepEqual(worker.said, [{ say: "assist", module: {} }]));
-  workers[2]?.say({ say: "assisting" });
-  made.give(5, new ArrayBuffer(0));
-  assert.deepEqual([sizes, workers.map(worker => worker.parts)], [[1], [[], [], [5]]]);
-  workers[0]?.say({ say: "assisting" });
-  workers[1]?.say({ say: "assisting" });
-  [6, 7, 8, 9].forEach(number => made.give(number, new ArrayBuffer(0)));
-  const parts = workers.map(worker => worker.parts.slice(worker === workers[2] ? 1 : 0));
-  assert.deepEqual(parts.flat().sort(), [6, 7, 8, 9]);
-  assert.ok(parts.every(given => given.length > 0));
-  workers[1]?.say({ say: "part", number: 7, bytes: new ArrayBuffer(0) });
-  assert.deepEqual([sizes, done], [[1, 2, 3], [7]]);
+test("several have parts in turn, as soon as they are ready", async () => {
+  const { made, workers, led } = assistants(4);
+  const [sizes, done, given]: [number[], number[], number[][]] = [[], [], [[], [], []]];
+  const crew = new Crew(
+    led[0] as MessagePort[],
+    size => sizes.push(size),
+    ({ number }) => done.push(number),
+  );
+  const part = (number: number): Part => ({ number, bytes: new ArrayBuffer(0) });
+  workers.forEach(({ port }, i) => {
+    (port as MessagePort).onmessage = ({ data }: MessageEvent<Part>) => given[i]?.push(data.number);
+  });
+  crew.give(part(4));
+  workers[2]?.port?.postMessage("ready");
+  await delivered();
+  crew.give(part(5));
+  await delivered();
+  assert.deepEqual(
+    [sizes, given],
+    [
+      [0, 1],
+      [[], [], [5]],
+    ],
+  );
+  workers[0]?.port?.postMessage("ready");
+  workers[1]?.port?.postMessage("ready");
+  await delivered();
+  [6, 7, 8, 9].forEach(number => crew.give(part(number)));
+  workers[1]?.port?.postMessage(part(7));
+  await delivered();
+  assert.deepEqual([sizes, done], [[0, 1, 2, 3], [7]]);
+  assert.deepEqual(given.flat().sort(), [5, 6, 7, 8, 9]);
+  assert.ok(given.every(numbers => numbers.length > 0));
+  made.end();
+  crew.close();
 });
 
 test("without one of them the program goes on alone", () => {
-  const { made, workers, sizes, done } = crew(4);
-  workers.forEach(worker => worker.say({ say: "assisting" }));
-  workers[1]?.say({ say: "failed", message: "no memory" });
-  assert.deepEqual([sizes.at(-1), workers.map(worker => worker.isEnded)], [0, [true, true, true]]);
-  workers[0]?.say({ say: "part", number: 1, bytes: new ArrayBuffer(0) });
-  made.give(2, new ArrayBuffer(0));
-  assert.deepEqual([done, workers.flatMap(worker => worker.parts)], [[], []]);
+  const { workers, led } = assistants(4);
+  workers[1]?.onmessage(new Event("message"));
+  assert.deepEqual(
+    [led.map(ports => ports.length), workers.map(worker => worker.isEnded)],
+    [
+      [3, 0],
+      [true, true, true],
+    ],
+  );
 });

@@ -1,6 +1,6 @@
 // The clock of a circuit, by hand or by itself.
 
-import { button, element, fill } from "../element";
+import { button, countIn, element, fill } from "../element";
 import { bitsOf, type PortBit } from "../ports";
 import { closeOutside } from "../menu";
 import type { ShownSwarm } from "../protocol";
@@ -59,7 +59,7 @@ export class ClockPanel {
     });
     const press = (): void => {
       this.#endPulse();
-      this.#endPulse = pulse(this.swarm, Number(which.value), Number(half.value));
+      this.#endPulse = pulse(this.swarm, Number(which.value), countIn(half));
     };
     const once = button("Pulse", press, {
       title: "Set the input to 1 for half a period, then to 0",
@@ -88,9 +88,8 @@ export class ClockPanel {
   }
 
   #apply(which: HTMLSelectElement, half: HTMLInputElement, on: boolean): void {
-    const cycles = Math.max(1, Math.round(Number(half.value)) || 1);
     const isNew = on && this.swarm.clock.value === null;
-    this.swarm.setClock(on ? { bit: Number(which.value), half: cycles } : null);
+    this.swarm.setClock(on ? { bit: Number(which.value), half: countIn(half) } : null);
     if (isNew && !this.swarm.running.value) {
       this.swarm.play();
     }

@@ -59,7 +59,7 @@ export class SwarmPanel {
   #showStage(stage: CompileStage): void {
     this.#status.dataset["state"] = stage.state;
     this.host.classList.toggle("stale", stage.state === "errors" || stage.state === "failed");
-    this.host.classList.toggle("vacant", this.#hasNone() && this.#isVacant());
+    this.host.classList.toggle("vacant", this.#isVacant() && (this.#hasNone() || stage.state === "errors"));
     this.host.classList.toggle("foreign", this.swarm.definition.value !== null && this.#isVacant());
     const reason = this.swarm.stopped.value;
     switch (stage.state) {
@@ -71,7 +71,7 @@ export class SwarmPanel {
         );
         return;
       case "errors":
-        fill(this.#status, `${counted(stage.count, "error")} in the program; these robots are from before`);
+        fill(this.#status, this.#withRobots(`${counted(stage.count, "error")} in the program`));
         return;
       case "failed":
         fill(
@@ -94,9 +94,13 @@ export class SwarmPanel {
     return this.swarm.definition.value === null || this.program.shown !== this.program.path.value;
   }
 
+  #withRobots(text: string): string {
+    return this.#isVacant() ? text : `${text}; these robots are from before`;
+  }
+
   #summary(): string {
     if (this.#hasNone()) {
-      return `The program has no circuit${this.#isVacant() ? "" : "; these robots are from before"}`;
+      return this.#withRobots("The program has no circuit");
     }
     const definition = this.swarm.definition.value;
     return definition === null ? "" : summaryOf(definition);

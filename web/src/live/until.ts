@@ -1,6 +1,7 @@
 // Runs that end by themselves: after some cycles or clocks, or as soon as an output or a register has a value.
 
-import { button, element, fill } from "../element";
+import { counted } from "../counted";
+import { button, countIn, element, fill } from "../element";
 import { closeOutside } from "../menu";
 import { offsetOf, toNumber } from "../ports";
 import type { StimulusSource, ShownSwarm } from "../protocol";
@@ -27,15 +28,15 @@ export class RunUntil {
     const count = element("input", { type: "number", min: 1, max: 100_000, value: 10, "aria-label": "How many" });
     const [clock] = definition === null ? [] : likelyClock(definition);
     const more = (cycles: number, what: string): void => {
-      const last = (this.swarm.frame.value?.now ?? 0) + cycles * Math.max(1, Math.round(Number(count.value)) || 1);
-      this.#run(`${count.value} ${what} later`, cycle => cycle >= last);
+      const last = (this.swarm.frame.value?.now ?? 0) + cycles * countIn(count);
+      this.#run(`${counted(countIn(count), what)} later`, cycle => cycle >= last);
     };
     const clocks = (): void => {
       const half = this.swarm.clock.value?.half ?? halfOf(definition as ShownSwarm, clock?.index ?? 0);
       if (this.swarm.clock.value === null) {
         this.swarm.setClock({ bit: clock?.index ?? 0, half });
       }
-      more(2 * half, "clocks");
+      more(2 * half, "clock");
     };
     fill(
       this.#sheet,
@@ -43,7 +44,7 @@ export class RunUntil {
         "p",
         { class: "row" },
         count,
-        button("cycles later", () => more(1, "cycles"), { "data-do": "until-cycles" }),
+        button("cycles later", () => more(1, "cycle"), { "data-do": "until-cycles" }),
         clock !== undefined && button("clocks later", clocks, { "data-do": "until-clocks" }),
       ),
       definition !== null && this.#values(definition),

@@ -2,7 +2,7 @@
 
 import { CANCELLED, type Connection } from "../connection";
 import { downloadBytes } from "../download";
-import { button, element } from "../element";
+import { button, countIn, element } from "../element";
 import { Observable } from "../observable";
 import type { EliteData } from "../protocol";
 import { RequestError } from "../request";
@@ -93,7 +93,7 @@ export class Evolution {
     this.#progress.hidden = false;
     this.#progress.removeAttribute("value");
     this.#status.textContent = "simulating the first bodies …";
-    const generations = Math.max(1, Math.round(Number(this.#generations.value)) || GENERATIONS);
+    const generations = countIn(this.#generations, GENERATIONS);
     const fields = {
       body: countVoxels(body) === 0 ? null : [...body],
       box: sizeOf(body),

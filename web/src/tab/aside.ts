@@ -3,15 +3,23 @@
 
 import type { Contents } from "./files";
 import type { ServerMessage } from "../protocol";
+import type { Assistants } from "./assistants";
 import type { FromWorker, ToWorker } from "./messages";
+
+/** What starts workers: one for a program, and those who help it, whose ports it is given. */
+export interface Starts {
+  program: () => Worker;
+  assistants: (lead: (ports: MessagePort[]) => void) => Assistants;
+}
 
 export class Aside {
   #worker: Worker | null = null;
+  #assistants: Assistants | null = null;
   /** The requests that have no answer yet: what is said to the program for each, by their numbers. */
   readonly #open = new Map<number, string[]>();
 
   constructor(
-    private readonly start: () => Worker,
+    private readonly starts: Starts,
     private readonly said: (message: FromWorker, from: Aside) => void,
   ) {}
 
@@ -27,7 +35,7 @@ export class Aside {
 
   begin(): Worker {
     if (this.#worker === null) {
-      const worker = this.start();
+      const worker = this.starts.program();
       worker.onmessage = ({ data }: MessageEvent<FromWorker>) => worker === this.#worker && this.#receive(data);
       this.#worker = worker;
     }
@@ -36,6 +44,16 @@ export class Aside {
 
   post(message: ToWorker): void {
     this.begin().postMessage(message);
+  }
+
+  /** Others help to simulate from now on. */
+  gather(): void {
+    const worker = this.begin();
+    this.#assistants ??= this.starts.assistants(ports => {
+      if (worker === this.#worker) {
+        worker.postMessage({ say: "crew", ports } satisfies ToWorker, ports);
+      }
+    });
   }
 
   insert(path: string, text: Contents | null): void {
@@ -60,7 +78,8 @@ export class Aside {
 
   #end(): void {
     this.#worker?.terminate();
-    this.#worker = null;
+    this.#assistants?.end();
+    [this.#worker, this.#assistants] = [null, null];
   }
 
   #refuse(id: number): void {

@@ -3,6 +3,7 @@
 import type { BrowserFolder, Dial, LineEvents, Ways } from "../line";
 import { Observable } from "../observable";
 import type { Aside } from "./aside";
+import { Assistants } from "./assistants";
 import type { Contents } from "./files";
 import type { FromWorker, LiveParts, Source, Start, ToWorker } from "./messages";
 import { MadeFiles } from "./made";
@@ -31,7 +32,10 @@ export class TabHost implements Ways {
   readonly #made = new MadeFiles();
   readonly #texts = new Texts();
   readonly #programs = new Programs(
-    () => this.#started({ module: this.#module! }, "", false),
+    {
+      program: () => this.#started({ module: this.#module! }, "", false),
+      assistants: lead => new Assistants(this.#module!, this.options.worker, lead),
+    },
     (message, from) => this.#receive(from, message),
   );
   #module: WebAssembly.Module | null = null;

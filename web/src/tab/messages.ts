@@ -19,19 +19,27 @@ export interface LiveParts {
   program: string;
 }
 
+/** A part of a simulation, or what became of it. */
+export interface Part {
+  number: number;
+  bytes: ArrayBuffer;
+}
+
+/** What one who does parts says: that there can be some, and then what became of each. */
+export type FromAssistant = "ready" | Part;
+
 export type ToWorker =
   | ({ say: "begin" } & Start)
   | { say: "live" | "language"; text: string }
   | { say: "greet" }
-  /** In so many milliseconds others help to simulate. */
-  | { say: "gather"; after: number }
+  /** Others help to simulate, each at a port. */
+  | { say: "crew"; ports: MessagePort[] }
   /** A file that was written elsewhere, or deleted if it has no contents. */
   | { say: "insert"; path: string; text: Contents | null }
   | ({ say: "template" } & LiveParts)
   | { say: "drawn" }
   /** To a worker that only does parts of simulations for another. */
-  | { say: "assist"; module: WebAssembly.Module }
-  | { say: "part"; number: number; bytes: ArrayBuffer };
+  | { say: "assist"; module: WebAssembly.Module; port: MessagePort };
 
 export type FromWorker =
   | { say: "loading"; done: number; all: number }
@@ -42,9 +50,6 @@ export type FromWorker =
   /** A file was saved here, or by another tab, which may have deleted it. */
   | { say: "wrote"; path: string; text: Contents | null }
   | { say: "kept"; path: string; isKept: boolean }
-  /** An assistant is ready, or has done a part. */
-  | { say: "assisting" }
-  | { say: "part"; number: number; bytes: ArrayBuffer }
   | { say: "file"; address: string; type: string; bytes: ArrayBuffer }
   /** The program has failed, or could not be loaded; nothing more will come. */
   | { say: "failed"; message: string };

@@ -2,7 +2,7 @@
 // and any work can be stopped at once. A circuit is compiled beside the swarm that is shown, and then takes its place.
 
 import type { Request, ServerMessage } from "../protocol";
-import { Aside } from "./aside";
+import { Aside, type Starts } from "./aside";
 import type { Contents } from "./files";
 import type { FromWorker } from "./messages";
 
@@ -31,7 +31,6 @@ const PLACES: { [V in Verb]?: Place } = {
 };
 /** Milliseconds in which a new swarm is alone, so that it is there soon. */
 const ALONE = 1000;
-const GATHER = { say: "gather", after: 0 } as const;
 
 export class Programs {
   #swarm: Aside | null = null;
@@ -43,11 +42,11 @@ export class Programs {
   #program = "";
 
   constructor(
-    private readonly start: () => Worker,
+    private readonly starts: Starts,
     /** Takes a message of a program, with what answers it. */
     private readonly said: (message: FromWorker, from: Aside) => void,
   ) {
-    const aside = (): Aside => new Aside(start, said);
+    const aside = (): Aside => new Aside(starts, said);
     [this.#work, this.#probe, this.#search] = [aside(), aside(), aside()];
   }
 
@@ -71,10 +70,10 @@ export class Programs {
       this.#toNext(request, text);
     } else if (place === "work") {
       this.#work.send(request.id, this.#program, text);
-      this.#work.post(GATHER);
+      this.#work.gather();
     } else if (place === "search") {
       this.#search.send(request.id, text);
-      this.#search.post(GATHER);
+      this.#search.gather();
     } else if (place === "probe") {
       this.#probe.send(request.id, text);
     } else if (place === "swarm") {
@@ -84,7 +83,7 @@ export class Programs {
   }
 
   prepare(): void {
-    this.#next ??= new Aside(this.start, (message, from) => this.#receive(message, from));
+    this.#next ??= new Aside(this.starts, (message, from) => this.#receive(message, from));
     this.#next.begin();
   }
 
@@ -106,13 +105,13 @@ export class Programs {
     this.prepare();
     this.#next?.send(request.id, this.#program, text);
     if (request.do === "replay") {
-      this.#next?.post(GATHER);
+      this.#next?.gather();
     }
   }
 
   #toSwarm(id: number, text: string): void {
     // Without a swarm it is refused.
-    const swarm = this.#swarm ?? new Aside(this.start, this.said);
+    const swarm = this.#swarm ?? new Aside(this.starts, this.said);
     swarm.send(id, text);
     if (swarm !== this.#swarm) {
       swarm.close();
@@ -135,7 +134,7 @@ export class Programs {
       const before = this.#swarm;
       [this.#swarm, this.#next] = [from, null];
       before?.close();
-      from.post({ say: "gather", after: ALONE });
+      setTimeout(() => from === this.#swarm && from.gather(), ALONE);
     }
     // Frames of another swarm than the one that is shown say nothing.
     if (isText || message.say !== "live" || from === this.#swarm) {

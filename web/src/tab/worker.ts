@@ -4,11 +4,10 @@
 import { Crew } from "./crew";
 import { Engine } from "./engine";
 import { FileStore, type Contents } from "./files";
-import type { FromWorker, LiveParts, Source, ToWorker } from "./messages";
+import type { FromAssistant, FromWorker, LiveParts, Part, Source, ToWorker } from "./messages";
 
 const pause = new MessageChannel();
 let engine: Engine | null = null;
-let compiled: WebAssembly.Module | null = null;
 let crew: Crew | null = null;
 let store: FileStore | null = null;
 const waiting: ToWorker[] = [];
@@ -22,7 +21,7 @@ pause.port1.onmessage = () => {
 };
 onmessage = ({ data }: MessageEvent<ToWorker>) => {
   if (data.say === "begin" || data.say === "assist") {
-    const starting = data.say === "begin" ? begin(data) : assist(data.module);
+    const starting = data.say === "begin" ? begin(data) : assist(data);
     starting.catch((error: unknown) => fail(String(error)));
     return;
   }
@@ -63,15 +62,10 @@ async function begin({ program, first, files, keeps }: Extract<ToWorker, { say: 
   say({ say: "ready", keeps: store !== null, module, files: all });
   guard(() => waiting.splice(0).forEach(message => take(started, message)));
   work();
-  compiled = module;
 }
 
-/** Starts others that simulate. A browser that has none, or not in this place, goes on without them. */
-function gather(): void {
-  const module = compiled;
-  if (module === null || crew !== null) {
-    return;
-  }
+/** Has others simulate, in the place of those before. */
+function lead(ports: MessagePort[]): void {
   const tell = (call: (engine: Engine) => void): void => {
     const told = engine;
     if (told !== null) {
@@ -79,26 +73,22 @@ function gather(): void {
       soon();
     }
   };
-  try {
-    crew = new Crew(
-      module,
-      size => tell(engine => engine.crew(size)),
-      (number, bytes) => tell(engine => engine.receivePart(number, bytes)),
-    );
-  } catch {
-    crew = null;
-  }
+  crew?.close();
+  crew = new Crew(
+    ports,
+    size => tell(engine => engine.crew(size)),
+    ({ number, bytes }) => tell(engine => engine.receivePart(number, bytes)),
+  );
 }
 
-async function assist(module: WebAssembly.Module): Promise<void> {
+async function assist({ module, port }: Extract<ToWorker, { say: "assist" }>): Promise<void> {
   const assistant = await Engine.start(module, () => {});
-  onmessage = ({ data }: MessageEvent<ToWorker>) => {
-    if (data.say === "part") {
-      const bytes = assistant.simulate(data.bytes);
-      say({ say: "part", number: data.number, bytes }, [bytes]);
-    }
+  const tell = (message: FromAssistant, transfer: Transferable[] = []): void => port.postMessage(message, transfer);
+  port.onmessage = ({ data }: MessageEvent<Part>) => {
+    const bytes = assistant.simulate(data.bytes);
+    tell({ number: data.number, bytes }, [bytes]);
   };
-  say({ say: "assisting" });
+  tell("ready");
 }
 
 let failing: () => string | null = () => null;
@@ -162,8 +152,8 @@ function take(engine: Engine, message: ToWorker): void {
     case "greet":
       engine.greet();
       break;
-    case "gather":
-      setTimeout(gather, message.after);
+    case "crew":
+      lead(message.ports);
       break;
     case "insert":
       engine.insert(message.path, message.text);
@@ -233,7 +223,7 @@ function pass(message: NonNullable<ReturnType<Engine["next"]>>): void {
       say({ say: "wrote", path: message.path, text: message.text });
       break;
     case "part":
-      crew?.give(message.number, message.bytes);
+      crew?.give({ number: message.number, bytes: message.bytes });
       break;
     case "kept":
       say({ say: "file", address: message.address, type: message.type, bytes: message.bytes }, [message.bytes]);

@@ -27,6 +27,8 @@ pub struct Surroundings {
     before: Vec<Signal>,
     /// The gates after the gate, drivers first.
     after: Vec<Signal>,
+    /// Signals whose listeners are not yet marked.
+    pending: Vec<Signal>,
     width: usize,
     /// The values of each row, and those with the gate inverted.
     words: Vec<u64>,
@@ -60,46 +62,59 @@ impl Surroundings {
         self.depends.clear();
         self.depends.resize(graph.nodes.len(), false);
         self.depends[gate as usize] = true;
-        for &signal in &graph.order[graph.position(gate) + 1..] {
-            let [a, b] = graph.node(signal).pins;
-            self.depends[signal as usize] = self.depends[a as usize] || self.depends[b as usize];
+        self.pending.push(gate);
+        while let Some(signal) = self.pending.pop() {
+            for &listener in graph.fanout(signal) {
+                if !std::mem::replace(&mut self.depends[listener as usize], true) {
+                    self.pending.push(listener);
+                }
+            }
         }
     }
 
     /// All pins that depend on the gate are among them, so that no input changes with the gate.
     fn collect_after(&mut self, graph: &Graph<'_>, gate: Signal, levels: u32) {
-        self.after.clear();
-        let mut level = vec![gate];
+        let after = &mut self.after;
+        after.clear();
+        after.push(gate);
+        let mut level = 0;
         for _ in 0..levels {
-            let listeners = level.iter().filter(|&&from| graph.fanout(from).len() <= MOST_FANOUT);
-            let mut next: Vec<Signal> = listeners.flat_map(|&from| graph.fanout(from).iter().copied()).collect();
-            next.retain(|signal| !self.after.contains(signal));
-            next.sort_unstable();
-            next.dedup();
-            next.truncate(MOST_AFTER - self.after.len());
-            self.after.extend(&next);
+            let next = after.len();
+            for i in level..next {
+                let listeners = graph.fanout(after[i]);
+                for &listener in listeners.iter().filter(|_| listeners.len() <= MOST_FANOUT) {
+                    if !after.contains(&listener) {
+                        after.push(listener);
+                    }
+                }
+            }
+            after[next..].sort_unstable();
+            after.truncate(1 + MOST_AFTER);
             level = next;
         }
-        self.after.sort_unstable_by_key(|&signal| graph.position(signal));
-        let mut inside = vec![gate];
-        for &signal in &self.after {
-            let known = |pin: Signal| !self.depends[pin as usize] || inside.contains(&pin);
-            if graph.node(signal).pins.into_iter().all(known) {
-                inside.push(signal);
+        after.sort_unstable_by_key(|&signal| graph.position(signal));
+        let mut kept = 1;
+        for i in 1..after.len() {
+            let known = |pin: Signal| !self.depends[pin as usize] || after[..kept].contains(&pin);
+            if graph.node(after[i]).pins.into_iter().all(known) {
+                after[kept] = after[i];
+                kept += 1;
             }
         }
-        inside.remove(0);
-        let seen = graph.is_output(gate) || graph.fanout(gate).iter().any(|listener| !inside.contains(listener));
+        after.truncate(kept);
+        let seen = graph.is_output(gate) || graph.fanout(gate).iter().any(|listener| !after.contains(listener));
         // A gate that is seen directly always matters.
         if seen {
-            inside.clear();
+            after.clear();
+        } else {
+            after.remove(0);
         }
-        self.after = inside;
     }
 
     fn collect_leaves(&mut self, graph: &Graph<'_>, gate: Signal) {
         let pins = self.after.iter().chain([&gate]).flat_map(|&signal| graph.node(signal).pins);
-        self.leaves = pins.filter(|&pin| pin > 1 && !self.depends[pin as usize]).collect();
+        self.leaves.clear();
+        self.leaves.extend(pins.filter(|&pin| pin > 1 && !self.depends[pin as usize]));
         self.leaves.sort_unstable();
         self.leaves.dedup();
     }
