@@ -112,7 +112,7 @@ function drawIcon(name: IconName): SVGElement {
   return svg as SVGElement;
 }
 
-/** The number of a field that counts, from 1 up; without one, another. */
+/** The whole number in a field, at least 1; `otherwise` if there is none. */
 export function countIn({ value }: HTMLInputElement, otherwise = 1): number {
   return Math.max(1, Math.round(Number(value)) || otherwise);
 }

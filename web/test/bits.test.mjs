@@ -202,11 +202,13 @@ async function ofChromium(requests, page) {
       let hear = () => {};
       let see = () => {};
       let shown = 0;
+      let helper = null;
       worker.onmessage = ({ data }) => {
         if (data.say === "file") {
           files.set(data.address, new Blob([data.bytes]).text());
         } else if (data.say === "ready") {
-          const [helper, { port1, port2 }] = [new Worker(script), new MessageChannel()];
+          const { port1, port2 } = new MessageChannel();
+          helper = new Worker(script);
           helper.postMessage({ say: "assist", module: data.module, port: port1 }, [port1]);
           worker.postMessage({ say: "crew", ports: [port2] }, [port2]);
         } else if (data.say === "live" && typeof data.data === "string") {
@@ -250,6 +252,7 @@ async function ofChromium(requests, page) {
         }
       }
       worker.terminate();
+      helper.terminate();
       return said;
     },
     [requests, { address: siteFile(/\.bin$/), bytes: 1 }, siteFile(/^worker/)],

@@ -1,5 +1,5 @@
-// Every lesson is done by doing it, in Chromium several pages at once. Firefox gives what is typed to one page only, and
-// a page without a program computes with all processors: there, one after the other.
+// Every lesson is done by doing it, in Chromium on a server several at once. Firefox gives what is typed to one page
+// only, and a page without a program computes with all processors: there it is one after the other.
 
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";

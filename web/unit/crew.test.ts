@@ -86,8 +86,11 @@ test("several have parts in turn, as soon as they are ready", async () => {
   assert.deepEqual([sizes, done], [[0, 1, 2, 3], [7]]);
   assert.deepEqual(given.flat().sort(), [5, 6, 7, 8, 9]);
   assert.ok(given.every(numbers => numbers.length > 0));
-  made.end();
   crew.close();
+  workers[1]?.port?.postMessage(part(6));
+  await delivered();
+  assert.deepEqual(done, [7]);
+  made.end();
 });
 
 test("without one of them the program goes on alone", () => {

@@ -96,7 +96,7 @@ export class ClockPanel {
   }
 }
 
-/** Raises an input, and lowers it when it has been 1 for so many cycles. The result leaves it as it is. */
+/** Raises an input, and lowers it when it has been 1 for so many cycles. Returns what ends this early. */
 export function pulse(swarm: LiveSwarm, bit: number, cycles: number): () => void {
   const begun = swarm.frame.value?.now ?? 0;
   // The last cycle in which it was 0: the swarm may be ahead of the frame that is shown.

@@ -28,8 +28,9 @@ export class RunUntil {
     const count = element("input", { type: "number", min: 1, max: 100_000, value: 10, "aria-label": "How many" });
     const [clock] = definition === null ? [] : likelyClock(definition);
     const more = (cycles: number, what: string): void => {
-      const last = (this.swarm.frame.value?.now ?? 0) + cycles * countIn(count);
-      this.#run(`${counted(countIn(count), what)} later`, cycle => cycle >= last);
+      const times = countIn(count);
+      const last = (this.swarm.frame.value?.now ?? 0) + cycles * times;
+      this.#run(`${counted(times, what)} later`, cycle => cycle >= last);
     };
     const clocks = (): void => {
       const half = this.swarm.clock.value?.half ?? halfOf(definition as ShownSwarm, clock?.index ?? 0);

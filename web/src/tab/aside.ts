@@ -6,7 +6,7 @@ import type { ServerMessage } from "../protocol";
 import type { Assistants } from "./assistants";
 import type { FromWorker, ToWorker } from "./messages";
 
-/** What starts workers: one for a program, and those who help it, whose ports it is given. */
+/** What starts workers: one for a program, and its assistants, to whom `lead` is given the ports. */
 export interface Starts {
   program: () => Worker;
   assistants: (lead: (ports: MessagePort[]) => void) => Assistants;
@@ -46,7 +46,7 @@ export class Aside {
     this.begin().postMessage(message);
   }
 
-  /** Others help to simulate from now on. */
+  /** Assistants help to simulate from now on. */
   gather(): void {
     const worker = this.begin();
     this.#assistants ??= this.starts.assistants(ports => {

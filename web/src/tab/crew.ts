@@ -1,12 +1,12 @@
-// Those who do parts of simulations for the worker with a program: of a swarm's cycle, or of the bodies of a search. They
-// need no files and no memory of their own; what becomes of a part depends on it alone.
+// The assistants of a worker with a program, each at a port. They do parts of simulations: of a swarm's cycle, or of the
+// bodies of a search. They need no files; what becomes of a part depends on it alone.
 
 import type { FromAssistant, Part } from "./messages";
 
 export class Crew {
   readonly #ready: MessagePort[] = [];
 
-  /** `changed` learns how many can be given parts, `done` what becomes of them. */
+  /** `changed` learns how many can be given parts, `done` what became of a part. */
   constructor(
     private readonly ports: MessagePort[],
     changed: (size: number) => void,

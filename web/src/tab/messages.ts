@@ -25,14 +25,14 @@ export interface Part {
   bytes: ArrayBuffer;
 }
 
-/** What one who does parts says: that there can be some, and then what became of each. */
+/** What an assistant says: that it is ready, and then what became of each part. */
 export type FromAssistant = "ready" | Part;
 
 export type ToWorker =
   | ({ say: "begin" } & Start)
   | { say: "live" | "language"; text: string }
   | { say: "greet" }
-  /** Others help to simulate, each at a port. */
+  /** Assistants simulate from now on, one at each port; without ports, none. */
   | { say: "crew"; ports: MessagePort[] }
   /** A file that was written elsewhere, or deleted if it has no contents. */
   | { say: "insert"; path: string; text: Contents | null }

@@ -64,7 +64,7 @@ async function begin({ program, first, files, keeps }: Extract<ToWorker, { say: 
   work();
 }
 
-/** Has others simulate, in the place of those before. */
+/** Takes these assistants in the place of those before. */
 function lead(ports: MessagePort[]): void {
   const tell = (call: (engine: Engine) => void): void => {
     const told = engine;

@@ -81,8 +81,7 @@ impl Surroundings {
         for _ in 0..levels {
             let next = after.len();
             for i in level..next {
-                let listeners = graph.fanout(after[i]);
-                for &listener in listeners.iter().filter(|_| listeners.len() <= MOST_FANOUT) {
+                for &listener in followed(graph, after[i]) {
                     if !after.contains(&listener) {
                         after.push(listener);
                     }
@@ -160,10 +159,7 @@ impl Surroundings {
         while at < self.leaves.len() + inner.len() && inner.len() < MOST_SIGNALS {
             let from = if at < self.leaves.len() { self.leaves[at] } else { inner[at - self.leaves.len()] };
             at += 1;
-            if graph.fanout(from).len() > MOST_FANOUT {
-                continue;
-            }
-            for &listener in graph.fanout(from) {
+            for &listener in followed(graph, from) {
                 let known = |pin: Signal| pin <= 1 || self.inside[pin as usize];
                 let new = !self.inside[listener as usize] && !self.depends[listener as usize];
                 if new && graph.node(listener).pins.into_iter().all(known) {
@@ -239,4 +235,9 @@ impl Surroundings {
             self.flipped.push(word(node.function, a, b));
         }
     }
+}
+
+fn followed<'g>(graph: &'g Graph<'_>, from: Signal) -> &'g [Signal] {
+    let listeners = graph.fanout(from);
+    if listeners.len() <= MOST_FANOUT { listeners } else { &[] }
 }
