@@ -181,9 +181,21 @@ pub(crate) fn inverted(function: Function, inputs: [bool; 2]) -> Function {
 }
 
 pub fn word(function: Function, a: u64, b: u64) -> u64 {
-    let bits = function.bits();
-    let pick = |bit: u8, minterm: u64| if bits >> bit & 1 == 1 { minterm } else { 0 };
-    pick(0, !a & !b) | pick(1, !a & b) | pick(2, a & !b) | pick(3, a & b)
+    minterms(rows(function), a, b)
+}
+
+pub fn words<'a>(function: Function, a: &'a [u64], b: &'a [u64]) -> impl ExactSizeIterator<Item = u64> + 'a {
+    let rows = rows(function);
+    a.iter().zip(b).map(move |(&a, &b)| minterms(rows, a, b))
+}
+
+/// Each row of its truth table as a word.
+fn rows(function: Function) -> [u64; 4] {
+    std::array::from_fn(|row| if function.bits() >> row & 1 == 1 { !0 } else { 0 })
+}
+
+fn minterms(rows: [u64; 4], a: u64, b: u64) -> u64 {
+    rows[0] & !a & !b | rows[1] & !a & b | rows[2] & a & !b | rows[3] & a & b
 }
 
 /// The values of input `i` over all patterns, counted up, in the 64 patterns from `64 * block` on.

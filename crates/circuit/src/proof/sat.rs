@@ -7,7 +7,7 @@ use batsat::{Lit, Solver, SolverInterface, SolverOpts, lbool};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use crate::network::{Gate, Network, Signal, inverted, word};
+use crate::network::{Gate, Network, Signal, inverted, words};
 use crate::proof::method::{Method, random_word};
 use crate::properties::{Solved, SolverLimits};
 use nbc_base::model::Function;
@@ -150,7 +150,7 @@ impl SatSweep {
     fn gate(&mut self, function: Function, pins: [Signal; 2]) -> (Signal, bool) {
         let signal = self.values.len() as Signal;
         let [a, b] = pins.map(|pin| &self.values[pin as usize]);
-        let values: Vec<u64> = a.iter().zip(b).map(|(&a, &b)| word(function, a, b)).collect();
+        let values: Vec<u64> = words(function, a, b).collect();
         self.hashes.push(hash(&values));
         self.values.push(values);
         self.gates.push(Gate { function, pins });
@@ -236,7 +236,7 @@ impl SatSweep {
                 Some(i) => {
                     let Gate { function, pins } = self.gates[i];
                     let [a, b] = pins.map(|pin| &self.values[pin as usize][known..]);
-                    a.iter().zip(b).map(|(&a, &b)| word(function, a, b)).collect()
+                    words(function, a, b).collect()
                 }
             };
             let turn = if self.is_turned(signal as Signal) { !0 } else { 0 };

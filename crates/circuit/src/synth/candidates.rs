@@ -40,6 +40,14 @@ type Literal = (Signal, bool);
 /// The function and the signal that a candidate's rest is combined with.
 type Outer = Option<(Function, Signal)>;
 
+/// The place of a word, and its patterns in which the value must be 1 and 0.
+#[derive(Clone, Copy, Debug)]
+struct HotWord {
+    at: usize,
+    on: u64,
+    off: u64,
+}
+
 #[derive(Default)]
 pub struct Finder {
     pub on: Vec<u64>,
@@ -48,7 +56,9 @@ pub struct Finder {
     pub exclusive: bool,
     pub found: Vec<Replacement>,
     /// The words in which the gate matters; those that refute most come first.
-    hot: Vec<usize>,
+    hot: Vec<HotWord>,
+    /// The words of `hot` that have patterns of a target.
+    aimed: Vec<(usize, u64)>,
     ands: Vec<Literal>,
     ors: Vec<Literal>,
     buckets: Vec<Vec<Signal>>,
@@ -81,19 +91,20 @@ impl Finder {
         self.sort_words(on, off);
         for i in 0..self.divisors.len() {
             let signal = self.divisors[i];
-            self.classify(signal, fits(rows.of(signal), on, off, &self.hot), outer);
+            self.classify(signal, fits(rows.of(signal), &self.hot), outer);
         }
-        self.find_pairs(rows, off, true, outer, random);
-        self.find_pairs(rows, on, false, outer, random);
+        self.find_pairs(rows, true, outer, random);
+        self.find_pairs(rows, false, outer, random);
         if self.exclusive {
-            self.find_exclusive(rows, on, off, outer);
+            self.find_exclusive(rows, outer);
         }
     }
 
     fn sort_words(&mut self, on: &[u64], off: &[u64]) {
         self.hot.clear();
-        self.hot.extend((0..on.len()).filter(|&i| on[i] | off[i] != 0));
-        self.hot.sort_by_key(|&i| std::cmp::Reverse(on[i].count_ones().min(off[i].count_ones())));
+        let words = on.iter().zip(off).enumerate().map(|(at, (&on, &off))| HotWord { at, on, off });
+        self.hot.extend(words.filter(|word| word.on | word.off != 0));
+        self.hot.sort_by_key(|word| std::cmp::Reverse(word.on.count_ones().min(word.off.count_ones())));
     }
 
     fn classify(&mut self, signal: Signal, fits: Fits, outer: Outer) {
@@ -109,17 +120,19 @@ impl Finder {
         self.ors.extend(ors.into_iter().filter(|(fits, _)| *fits).map(|(_, inverted)| (signal, inverted)));
     }
 
-    /// Pairs of literals whose AND is 0 on `target`, or whose OR is 1 on `target`.
-    fn find_pairs(&mut self, rows: Rows<'_>, target: &[u64], and: bool, outer: Outer, random: &mut ChaCha8Rng) {
+    /// Pairs of literals whose AND is 0 where the gate must be 0, or whose OR is 1 where it must be 1.
+    fn find_pairs(&mut self, rows: Rows<'_>, and: bool, outer: Outer, random: &mut ChaCha8Rng) {
         let literals = std::mem::take(if and { &mut self.ands } else { &mut self.ors });
-        let hot: Vec<usize> = self.hot.iter().copied().filter(|&i| target[i] != 0).collect();
+        let target = self.hot.iter().map(|word| (word.at, if and { word.off } else { word.on }));
+        self.aimed.clear();
+        self.aimed.extend(target.filter(|&(_, target)| target != 0));
         let start = if literals.is_empty() { 0 } else { below(random, literals.len()) };
         let (mut found, mut compared) = (0, 0);
         'pairs: for i in 0..literals.len() {
             let one = literals[(start + i) % literals.len()];
             for j in 0..i {
                 let two = literals[(start + j) % literals.len()];
-                if pair_fits(rows, one, two, target, &hot, and) {
+                if pair_fits(rows, one, two, &self.aimed, and) {
                     self.push(pair_function(one.1, two.1, and), [one.0, two.0], outer);
                     found += 1;
                 }
@@ -132,33 +145,29 @@ impl Finder {
         *(if and { &mut self.ands } else { &mut self.ors }) = literals;
     }
 
-    fn find_exclusive(&mut self, rows: Rows<'_>, on: &[u64], off: &[u64], outer: Outer) {
-        let care = |i: usize| on[i] | off[i];
-        let words: Vec<usize> = self.hot.iter().copied().take(HASHED_WORDS).collect();
-        let bit = care(words[0]).trailing_zeros();
-        let bucket = |values: &[u64]| {
-            let turn = if values[words[0]] >> bit & 1 == 1 { !0 } else { 0 };
-            words.iter().fold(0u64, |hash, &i| hash.rotate_left(23) ^ ((values[i] ^ turn) & care(i)))
-        };
+    fn find_exclusive(&mut self, rows: Rows<'_>, outer: Outer) {
+        let hot = std::mem::take(&mut self.hot);
+        let hashed = &hot[..hot.len().min(HASHED_WORDS)];
         let fold = |hash: u64| (hash.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 56) as usize % BUCKETS;
-        let target = bucket(on);
+        let target = bucket(hashed, |word| word.on);
         self.buckets.iter_mut().for_each(Vec::clear);
         let mut compared = 0;
         for i in 0..self.divisors.len() {
             let signal = self.divisors[i];
             let values = rows.of(signal);
-            let own = bucket(values);
+            let own = bucket(hashed, |word| values[word.at]);
             let place = fold(own ^ target);
             let most = MOST_PAIRS - compared;
             for j in 0..self.buckets[place].len().min(most) {
                 compared += 1;
                 let other = self.buckets[place][j];
-                if let Some(function) = exclusive_fits(values, rows.of(other), on, off, &self.hot) {
+                if let Some(function) = exclusive_fits(values, rows.of(other), &hot) {
                     self.push(function, [signal, other], outer);
                 }
             }
             self.buckets[fold(own)].push(signal);
         }
+        self.hot = hot;
     }
 
     fn find_deep(&mut self, rows: Rows<'_>, on: &[u64], off: &[u64], shape: usize, random: &mut ChaCha8Rng) {
@@ -211,20 +220,27 @@ pub fn below(random: &mut ChaCha8Rng, bound: usize) -> usize {
     ((u64::from(rand::Rng::next_u32(random)) * bound as u64) >> 32) as usize
 }
 
-fn pair_fits(rows: Rows<'_>, one: Literal, two: Literal, target: &[u64], hot: &[usize], and: bool) -> bool {
+/// The same for values and their inverse.
+fn bucket(hashed: &[HotWord], value: impl Fn(&HotWord) -> u64) -> u64 {
+    let bit = (hashed[0].on | hashed[0].off).trailing_zeros();
+    let turn = if value(&hashed[0]) >> bit & 1 == 1 { !0 } else { 0 };
+    hashed.iter().fold(0, |hash, word| hash.rotate_left(23) ^ ((value(word) ^ turn) & (word.on | word.off)))
+}
+
+fn pair_fits(rows: Rows<'_>, one: Literal, two: Literal, aimed: &[(usize, u64)], and: bool) -> bool {
     let (a, b) = (rows.of(one.0), rows.of(two.0));
     // An OR is 1 on the target where the AND of the opposite literals is 0.
     let turn = |inverted: bool| if inverted == and { !0 } else { 0 };
     let (x, y) = (turn(one.1), turn(two.1));
-    hot.iter().all(|&i| (a[i] ^ x) & (b[i] ^ y) & target[i] == 0)
+    aimed.iter().all(|&(i, target)| (a[i] ^ x) & (b[i] ^ y) & target == 0)
 }
 
-fn exclusive_fits(a: &[u64], b: &[u64], on: &[u64], off: &[u64], hot: &[usize]) -> Option<Function> {
+fn exclusive_fits(a: &[u64], b: &[u64], hot: &[HotWord]) -> Option<Function> {
     let (mut xor, mut xnor) = (true, true);
-    for &i in hot {
-        let differ = a[i] ^ b[i];
-        xor &= differ & off[i] == 0 && !differ & on[i] == 0;
-        xnor &= differ & on[i] == 0 && !differ & off[i] == 0;
+    for &HotWord { at, on, off } in hot {
+        let differ = a[at] ^ b[at];
+        xor &= differ & off == 0 && !differ & on == 0;
+        xnor &= differ & on == 0 && !differ & off == 0;
         if !xor && !xnor {
             return None;
         }
@@ -243,13 +259,14 @@ struct Fits {
     avoids_off: bool,
 }
 
-fn fits(values: &[u64], on: &[u64], off: &[u64], hot: &[usize]) -> Fits {
+fn fits(values: &[u64], hot: &[HotWord]) -> Fits {
     let (mut one_on, mut zero_on, mut one_off, mut zero_off) = (0, 0, 0, 0);
-    for &i in hot {
-        one_on |= values[i] & on[i];
-        zero_on |= !values[i] & on[i];
-        one_off |= values[i] & off[i];
-        zero_off |= !values[i] & off[i];
+    for &HotWord { at, on, off } in hot {
+        let value = values[at];
+        one_on |= value & on;
+        zero_on |= !value & on;
+        one_off |= value & off;
+        zero_off |= !value & off;
         if one_on != 0 && zero_on != 0 && one_off != 0 && zero_off != 0 {
             break;
         }

@@ -6,7 +6,7 @@
 use rand_chacha::ChaCha8Rng;
 
 use crate::CancelFlag;
-use crate::network::{Network, Signal, word};
+use crate::network::{Network, Signal, words};
 use crate::synth::candidates::{Finder, Replacement, Rows, TRIES, below};
 use crate::synth::graph::{Graph, every_pattern};
 use crate::synth::prices::Prices;
@@ -122,6 +122,7 @@ struct Walk<'p, 'r> {
     random: &'r mut ChaCha8Rng,
     /// Values with the visited gate inverted, for the signals marked as changed.
     flipped: Vec<u64>,
+    row: Vec<u64>,
     changed: Vec<bool>,
     after: Vec<bool>,
     finder: Finder,
@@ -144,6 +145,7 @@ impl<'p, 'r> Walk<'p, 'r> {
             required: Vec::new(),
             random,
             flipped: Vec::new(),
+            row: Vec::new(),
             changed: Vec::new(),
             after: Vec::new(),
             finder: Finder::new(),
@@ -267,20 +269,14 @@ impl<'p, 'r> Walk<'p, 'r> {
     }
 
     fn flip(&mut self, signal: Signal, pins: [Signal; 2]) -> bool {
-        let width = self.graph.width;
-        let function = self.graph.node(signal).function;
-        let mut changed = 0;
-        let out = signal as usize * width;
-        for i in 0..width {
-            let [a, b] = pins.map(|pin| {
-                let at = pin as usize * width + i;
-                if self.changed[pin as usize] { self.flipped[at] } else { self.graph.values(pin)[i] }
-            });
-            let value = word(function, a, b);
-            changed |= value ^ self.graph.values(signal)[i];
-            self.flipped[out + i] = value;
-        }
-        changed != 0
+        let [a, b] = pins.map(|pin| match self.changed[pin as usize] {
+            true => &self.flipped[pin as usize * self.graph.width..][..self.graph.width],
+            false => self.graph.values(pin),
+        });
+        self.row.clear();
+        self.row.extend(words(self.graph.node(signal).function, a, b));
+        self.flipped[signal as usize * self.graph.width..][..self.graph.width].copy_from_slice(&self.row);
+        self.row != self.graph.values(signal)
     }
 
     /// The candidate signals: those that do not depend on the gate or on a later loop.
