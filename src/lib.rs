@@ -97,7 +97,7 @@
 //! let checked = session.open("run.nb")?;
 //! use nbc::{EvolutionRun, Executor, LocalExecutor};
 //! let mut run = EvolutionRun::new(checked.program.evolution("mine").unwrap(), 1);
-//! let candidates = run.ask();
+//! let candidates = run.search().ask();
 //! let results = LocalExecutor::default().perform(0, &run.tasks(&candidates), &|| ()).unwrap();
 //! let line = run.tell(&candidates, results);
 //! assert_eq!((line.generation, line.work), (1, run.work()));

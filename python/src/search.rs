@@ -135,7 +135,7 @@ impl Search {
 
     fn ask(&self, py: Python<'_>) -> PyResult<Candidates> {
         let watch = Watch::over(0);
-        let asked = self.run.run(py, &watch, None, |run, _| (run.ask(), run.search().generation()))?;
+        let asked = self.run.run(py, &watch, None, |run, _| (run.search().ask(), run.search().generation()))?;
         let (list, generation) = asked.finished()?;
         Ok(Candidates { list: Arc::new(list), generation, search: self.number })
     }
@@ -183,7 +183,7 @@ impl Search {
     /// Makes a generation; one that is interrupted has not happened.
     fn step(&self, py: Python<'_>) -> PyResult<()> {
         let made = self.run.run(py, &Watch::over(0), None, |run, watch| {
-            let candidates = run.ask();
+            let candidates = run.search().ask();
             let executor = LocalExecutor::new(watch.simulator());
             let results = executor.perform(0, &run.tasks(&candidates), &|| ());
             if let Some(results) = results.filter(|_| !watch.is_stopped()) {

@@ -294,11 +294,12 @@ fn workers_and_a_device_cannot_both_simulate() {
 #[test]
 fn logic_needs_no_place_where_robots_are_simulated() {
     let bench = Bench::with("gate.nb", "circuit gate(a) -> (y) { y = not a }\ntest gate { a | y\n 0 | 1 }\n");
-    for (place, name) in [
+    let places: &[([&str; 2], &str)] = &[
         (["--device", "gpu"], "--device <DEVICE>"),
         #[cfg(feature = "cluster")]
         (["--nats", "nats://localhost:4222"], "--nats <URL>"),
-    ] {
+    ];
+    for &(place, name) in places {
         let ran = bench.run(&[&["test", "gate.nb", "--logic"][..], &place].concat());
         ran.expect_fault(&["'--logic'", "cannot be used with", name]);
     }

@@ -15,8 +15,8 @@ use nbc_base::model::{Instance, NamedWorld, Program, RegisterStyle};
 use nbc_base::source::Span;
 use nbc_circuit::passes::sweep;
 use nbc_circuit::{
-    CellLibrary, MapOptions, Netlist, RegisterForm, elaborate_net, has_multiplexers, kept, latches_as_registers, lower,
-    map_with, prove,
+    CellLibrary, MapOptions, MappingObjective, Netlist, RegisterForm, elaborate_net, has_multiplexers, kept,
+    latches_as_registers, lower, map_with, prove,
 };
 use nbc_swarm::Assembly;
 
@@ -69,7 +69,13 @@ impl Checked {
             Some(known) => known,
             None => {
                 let source = Netlist::clone(&*self.netlist(&plan.circuit)?);
-                compile(&self.program, source, plan, &options.mapping(), place)?
+                let mapping = map(source, &plan, &options.mapping(), place, Limit::SwarmGates)?;
+                permit(&mapping.netlist, Limit::Robots, place)?;
+                let timing = plan.timing(&mapping);
+                let mut assembly = assemble(&mapping, &plan, objective);
+                name_values(&self.program, &plan.circuit, &mut assembly);
+                let weak_robots = nbc_swarm::weak_robots(&assembly);
+                Compiled { plan, mapping, timing, assembly, weak_robots, warnings: Vec::new() }
             }
         };
         // What was cancelled may have more robots than needed.
@@ -163,27 +169,15 @@ fn map_net(program: &Program, plan: &Plan, net: Span, options: MapOptions) -> Re
     Ok(mapping)
 }
 
-fn compile(
-    program: &Program,
-    source: Netlist,
-    plan: Plan,
-    options: &MapOptions,
-    place: Span,
-) -> Result<Compiled, Vec<Diagnostic>> {
-    let mapping = map(source, &plan, options, place, Limit::SwarmGates)?;
-    permit(&mapping.netlist, Limit::Robots, place)?;
-    let timing = plan.timing(&mapping);
+fn assemble(mapping: &Mapping, plan: &Plan, objective: MappingObjective) -> Assembly {
     let assembly = match &mapping.waves {
         None => nbc_swarm::assemble(&mapping.netlist, &plan.library),
         Some(machine) => {
-            let library = nbc_swarm::within_beat(&plan.library, machine.beat, options.objective);
+            let library = nbc_swarm::within_beat(&plan.library, machine.beat, objective);
             nbc_swarm::assemble_waves(machine, &library)
         }
     };
-    let mut assembly = assembly.in_world(plan.world.world);
-    name_values(program, &plan.circuit, &mut assembly);
-    let weak_robots = nbc_swarm::weak_robots(&assembly);
-    Ok(Compiled { plan, mapping, timing, assembly, weak_robots, warnings: Vec::new() })
+    assembly.in_world(plan.world.world)
 }
 
 fn name_values(program: &Program, circuit: &Instance, assembly: &mut Assembly) {

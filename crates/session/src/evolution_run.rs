@@ -11,7 +11,7 @@ use nbc_base::model::Evolution;
 use nbc_swarm::evolve::{Candidate, CandidateOutcome, Search};
 use nbc_swarm::{Evaluated, EvaluationProtocol, EvaluationTask, Task, TaskResult, Work};
 
-/// A run of one seed: [`EvolutionRun::ask`], an [`nbc_swarm::Executor`], [`EvolutionRun::tell`].
+/// A run of one seed: [`Search::ask`], [`EvolutionRun::tasks`], an [`nbc_swarm::Executor`], [`EvolutionRun::tell`].
 #[derive(Clone, Debug)]
 pub struct EvolutionRun {
     search: Search,
@@ -36,10 +36,6 @@ impl EvolutionRun {
 
     pub fn work(&self) -> Work {
         self.work
-    }
-
-    pub fn ask(&self) -> Vec<Candidate> {
-        self.search.ask()
     }
 
     pub fn tasks(&self, candidates: &[Candidate]) -> Vec<Task> {

@@ -7,7 +7,7 @@ use crate::compiled::Compiled;
 use crate::hold;
 use crate::swarm_run::RunEnd;
 use nbc_base::model::{CircuitTest, NamedWorld, TestRow};
-use nbc_swarm::{Level, RowHold, RowVerdict, SwarmTrace, TestVerdict, WaveTest};
+use nbc_swarm::{Level, RowHold, SwarmTrace, TestVerdict, WaveTest};
 
 /// Only wave machines have more than thread 0.
 #[derive(Clone, Copy, Debug)]
@@ -113,26 +113,22 @@ impl TimedTest {
     pub fn verdict(&self, trace: &SwarmTrace, end: RunEnd) -> TestVerdict {
         let is_complete = end == RunEnd::Complete;
         let Compiled { plan, weak_robots, .. } = &self.compiled;
-        let mut verdict = TestVerdict::of(&self.test, Level::Physics, self.judge(trace));
-        (verdict.swarm, verdict.world) = (plan.swarm.clone(), Some(plan.world.name.clone()));
-        verdict.weak_robots = weak_robots.clone();
-        verdict.printed = Some(self.printed.clone()).filter(|printed| !printed.is_empty() && is_complete);
-        verdict.passed &= is_complete;
-        verdict
-    }
-
-    fn judge(&self, trace: &SwarmTrace) -> Vec<RowVerdict> {
-        let mut verdicts = match &self.timing {
+        let mut rows = match &self.timing {
             TestTiming::Holds(row_holds) => {
                 nbc_swarm::judge_swarm(&self.test, &self.rows, row_holds, trace, &self.compiled.clocks())
             }
             TestTiming::Waves => self.waves(&self.rows).judge(trace),
         };
         // Rows that show start values need no cycle, but a swarm in which a robot failed passes no test.
-        if let (Some(last), Some(fault)) = (verdicts.last_mut(), trace.fault()) {
+        if let (Some(last), Some(fault)) = (rows.last_mut(), trace.fault()) {
             (last.passed, last.fault) = (false, Some(fault));
         }
-        verdicts
+        let mut verdict = TestVerdict::of(&self.test, Level::Physics, rows);
+        (verdict.swarm, verdict.world) = (plan.swarm.clone(), Some(plan.world.name.clone()));
+        verdict.weak_robots = weak_robots.clone();
+        verdict.printed = Some(self.printed.clone()).filter(|printed| !printed.is_empty() && is_complete);
+        verdict.passed &= is_complete;
+        verdict
     }
 
     /// For each number of cycles, the rows whose last result is that of its last cycle.

@@ -240,7 +240,7 @@ fn cores(declared: &[Evolution], most_runs: usize) -> usize {
 /// Seconds of one full evaluation on this machine.
 fn seconds_each(evolution: &Evolution) -> f64 {
     let run = EvolutionRun::new(evolution, 0);
-    let candidates: Vec<_> = run.ask().into_iter().take(SAMPLE).collect();
+    let candidates: Vec<_> = run.search().ask().into_iter().take(SAMPLE).collect();
     let (tasks, started) = (run.tasks(&candidates), Instant::now());
     LocalExecutor::default().perform(0, &tasks, &|| ());
     started.elapsed().as_secs_f64() / tasks.len().max(1) as f64

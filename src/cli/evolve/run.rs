@@ -99,7 +99,7 @@ impl<'a> RunFolder<'a> {
 
     pub(super) fn ask(&mut self) -> Vec<Task> {
         let started = Instant::now();
-        self.candidates = self.timer.time(TimedStage::Development, || self.run.ask());
+        self.candidates = self.timer.time(TimedStage::Development, || self.run.search().ask());
         let tasks = self.timer.time(TimedStage::Archive, || self.run.tasks(&self.candidates));
         self.searching += started.elapsed().as_secs_f64();
         tasks
