@@ -49,7 +49,7 @@ impl EvolutionRun {
         let results: Vec<Evaluated> = results.into_iter().map(TaskResult::evaluated).collect();
         let outcomes: Vec<CandidateOutcome> = results.iter().map(|evaluated| evaluated.outcome).collect();
         self.add_work(results.iter().fold(Work::default(), |sum, evaluated| sum.plus(evaluated.work)));
-        self.tell_outcomes(candidates, &outcomes);
+        self.search.tell(candidates, &outcomes);
         self.line()
     }
 
