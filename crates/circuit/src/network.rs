@@ -184,7 +184,7 @@ pub fn word(function: Function, a: u64, b: u64) -> u64 {
     minterms(rows(function), a, b)
 }
 
-pub fn words<'a>(function: Function, a: &'a [u64], b: &'a [u64]) -> impl ExactSizeIterator<Item = u64> + 'a {
+pub fn words(function: Function, a: &[u64], b: &[u64]) -> impl Iterator<Item = u64> {
     let rows = rows(function);
     a.iter().zip(b).map(move |(&a, &b)| minterms(rows, a, b))
 }

@@ -1,5 +1,5 @@
-// The assistants of a worker with a program, each at a port. They do parts of simulations: of a swarm's cycle, or of the
-// bodies of a search. They need no files; what becomes of a part depends on it alone.
+// The assistants of a worker with a program, each at a port. They do parts of simulations: of a swarm's cycle, or of
+// the bodies of a search. They need no files; what becomes of a part depends on it alone.
 
 import type { FromAssistant, Part } from "./messages";
 

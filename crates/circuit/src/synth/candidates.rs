@@ -57,8 +57,6 @@ pub struct Finder {
     pub found: Vec<Replacement>,
     /// The words in which the gate matters; those that refute most come first.
     hot: Vec<HotWord>,
-    /// The words of `hot` that have patterns of a target.
-    aimed: Vec<(usize, u64)>,
     ands: Vec<Literal>,
     ors: Vec<Literal>,
     buckets: Vec<Vec<Signal>>,
@@ -124,15 +122,14 @@ impl Finder {
     fn find_pairs(&mut self, rows: Rows<'_>, and: bool, outer: Outer, random: &mut ChaCha8Rng) {
         let literals = std::mem::take(if and { &mut self.ands } else { &mut self.ors });
         let target = self.hot.iter().map(|word| (word.at, if and { word.off } else { word.on }));
-        self.aimed.clear();
-        self.aimed.extend(target.filter(|&(_, target)| target != 0));
+        let aimed: Vec<(usize, u64)> = target.filter(|&(_, target)| target != 0).collect();
         let start = if literals.is_empty() { 0 } else { below(random, literals.len()) };
         let (mut found, mut compared) = (0, 0);
         'pairs: for i in 0..literals.len() {
             let one = literals[(start + i) % literals.len()];
             for j in 0..i {
                 let two = literals[(start + j) % literals.len()];
-                if pair_fits(rows, one, two, &self.aimed, and) {
+                if pair_fits(rows, one, two, &aimed, and) {
                     self.push(pair_function(one.1, two.1, and), [one.0, two.0], outer);
                     found += 1;
                 }
@@ -220,7 +217,7 @@ pub fn below(random: &mut ChaCha8Rng, bound: usize) -> usize {
     ((u64::from(rand::Rng::next_u32(random)) * bound as u64) >> 32) as usize
 }
 
-/// The same for values and their inverse.
+/// A hash of the values where the gate matters. It is the same for their inverse.
 fn bucket(hashed: &[HotWord], value: impl Fn(&HotWord) -> u64) -> u64 {
     let bit = (hashed[0].on | hashed[0].off).trailing_zeros();
     let turn = if value(&hashed[0]) >> bit & 1 == 1 { !0 } else { 0 };
